@@ -1,0 +1,15 @@
+#include "pbf/fluid/params.hpp"
+
+namespace pbf {
+
+void FluidParams::check_together(Faults& faults) const {
+  // Below 1.2 d the lattice neighbors drop out of the kernel; above 4 d a particle has more than 250 neighbors.
+  const double least = 1.2 * static_cast<double>(spacing);
+  const double most = 4.0 * static_cast<double>(spacing);
+  const Range range = between(least, most);
+  if (!range.contains(static_cast<double>(h()))) {
+    faults.add("support_radius", h(), "m", range.text() + " (1.2 to 4 times the spacing)");
+  }
+}
+
+}  // namespace pbf
