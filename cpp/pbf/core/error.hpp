@@ -18,8 +18,8 @@ class InvalidParameter : public Error {
   using Error::Error;
 };
 
-/// A step could not be completed (for example: positions stopped being finite). The state is that of the last
-/// complete step.
+/// A step could not be completed (for example: positions stopped being finite). The state is that
+/// of the last complete step.
 class SimulationFailed : public Error {
  public:
   using Error::Error;

@@ -14,15 +14,16 @@
 #include <type_traits>
 #include <vector>
 
-/// Parameter structs describe themselves: one table per struct names each field with its unit, its range and
-/// what it does. Validation, the Python classes and the scene schema are all read from that table; a default
-/// stands in one place only, the struct's own member initialiser.
+/// Parameter structs describe themselves: one table per struct names each field with its unit, its
+/// range and what it does. Validation, the Python classes and the scene schema are all read from
+/// that table; a default stands in one place only, the struct's own member initialiser.
 ///
 ///     struct Params {
 ///       Real spacing = 0.02F;
 ///       static constexpr const char* kName = "Params";
 ///       static auto fields() {
-///         return std::tuple{Field{"spacing", &Params::spacing, "m", above(0), "Particle distance at rest."}};
+///         return std::tuple{Field{"spacing", &Params::spacing, "m", above(0), "Particle distance
+///         at rest."}};
 ///       }
 ///       void check_together(Faults& faults) const;   // optional: rules that span fields
 ///     };
@@ -55,20 +56,24 @@ inline constexpr Range inside(double least, double most) {
   return {.least = least, .most = most, .least_excluded = true, .most_excluded = true};
 }
 /// [-inf, most]: minus infinity is a value like any other.
-inline constexpr Range at_most_or_minus_infinity(double most) { return {.most = most, .finite = false}; }
+inline constexpr Range at_most_or_minus_infinity(double most) {
+  return {.most = most, .finite = false};
+}
 
 template <class Owner, class T>
 struct Field {
   const char* name;
-  T Owner::* member;
+  T Owner::*member;
   const char* unit;  ///< "" for a pure number
   Range range;
-  const char* doc;  ///< one sentence or two: what it is and what it does to the motion or the picture
+  const char*
+      doc;  ///< one sentence or two: what it is and what it does to the motion or the picture
 };
 template <class Owner, class T>
 Field(const char*, T Owner::*, const char*, Range, const char*) -> Field<Owner, T>;
 
-/// Names of an enumeration's values in order, by specialisation: `static constexpr std::array names{"a", "b"};`
+/// Names of an enumeration's values in order, by specialisation: `static constexpr std::array
+/// names{"a", "b"};`
 template <class Enum>
 struct Choices;
 
@@ -79,9 +84,10 @@ struct is_optional<std::optional<T>> : std::true_type {};
 
 template <class T>
 concept VectorField = requires(const T& v) {
-  { v.size() };
-  { v[0] };
-} && !std::is_same_v<T, std::string>;
+  {v.size()};
+  {v[0]};
+}
+&&!std::is_same_v<T, std::string>;
 
 template <class T>
 std::string to_text(const T& value) {
@@ -111,8 +117,8 @@ class Faults {
 
   template <class T>
   void add(const char* field, const T& value, const char* unit, const std::string& rule) {
-    faults_.push_back(owner_ + "." + field + " = " + to_text(value) + (*unit != '\0' ? " " : "") + unit + ": " +
-                      rule);
+    faults_.push_back(owner_ + "." + field + " = " + to_text(value) + (*unit != '\0' ? " " : "") +
+                      unit + ": " + rule);
   }
   void throw_if_any() const;
 
@@ -145,7 +151,8 @@ void validate(const Params& params) {
   Faults faults(Params::kName);
   const auto check = [&](const auto& field) {
     const auto& value = params.*field.member;
-    if (!field_is_valid(value, field.range)) faults.add(field.name, value, field.unit, field.range.text());
+    if (!field_is_valid(value, field.range))
+      faults.add(field.name, value, field.unit, field.range.text());
   };
   std::apply([&](const auto&... field) { (check(field), ...); }, Params::fields());
   faults.throw_if_any();

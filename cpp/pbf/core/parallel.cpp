@@ -2,10 +2,9 @@
 
 #include "pbf/core/error.hpp"
 
+#include <algorithm>
 #include <omp.h>
 #include <pthread.h>
-
-#include <algorithm>
 #include <string>
 
 namespace pbf {
@@ -22,8 +21,8 @@ void note_fork() {
 
 int usable_threads(int requested) {
   if (requested < 0 || requested > kMaxThreads) {
-    throw InvalidParameter("num_threads = " + std::to_string(requested) + ": must be between 0 (all) and " +
-                           std::to_string(kMaxThreads));
+    throw InvalidParameter("num_threads = " + std::to_string(requested) +
+                           ": must be between 0 (all) and " + std::to_string(kMaxThreads));
   }
   static const int registered = pthread_atfork(nullptr, nullptr, note_fork);
   static_cast<void>(registered);

@@ -8,21 +8,23 @@
 
 namespace pbf {
 
-/// Most threads that a caller may ask for. Far above any machine this runs on, far below what makes libgomp
-/// fail to start threads and end the process.
+/// Most threads that a caller may ask for. Far above any machine this runs on, far below what makes
+/// libgomp fail to start threads and end the process.
 inline constexpr int kMaxThreads = 256;
 
-/// The number of threads to use for a request: 0 means all that OpenMP offers. Throws InvalidParameter outside
-/// [0, kMaxThreads]. In a process forked from one that had already used threads the answer is 1, since libgomp's
-/// thread pool does not survive fork() and would wait for ever; results have the same bits either way.
+/// The number of threads to use for a request: 0 means all that OpenMP offers. Throws
+/// InvalidParameter outside [0, kMaxThreads]. In a process forked from one that had already used
+/// threads the answer is 1, since libgomp's thread pool does not survive fork() and would wait for
+/// ever; results have the same bits either way.
 int usable_threads(int requested);
 
-/// Particles handed to a thread at a time: large enough to hide the scheduler, small enough to balance a splash.
+/// Particles handed to a thread at a time: large enough to hide the scheduler, small enough to
+/// balance a splash.
 inline constexpr Index kChunk = 256;
 
-/// Calls f(first, last) for consecutive ranges that cover [0, n), several at once. f must write only what belongs
-/// to its range: then the schedule cannot show in the result. An exception thrown by f is rethrown here, after
-/// all threads have come home.
+/// Calls f(first, last) for consecutive ranges that cover [0, n), several at once. f must write
+/// only what belongs to its range: then the schedule cannot show in the result. An exception thrown
+/// by f is rethrown here, after all threads have come home.
 template <class F>
 void parallel_chunks(Index n, int threads, Index chunk, F&& f) {
   const Index chunks = (n + chunk - 1) / chunk;
@@ -53,8 +55,8 @@ void parallel_for(Index n, int threads, F&& f) {
   });
 }
 
-/// f(0) + f(1) + …, added in chunks of fixed size and the chunks in order: the same bits for any number of
-/// threads.
+/// f(0) + f(1) + …, added in chunks of fixed size and the chunks in order: the same bits for any
+/// number of threads.
 template <class F>
 double parallel_sum(Index n, int threads, F&& f) {
   std::vector<double> partial(static_cast<std::size_t>((n + kChunk - 1) / kChunk), 0.0);

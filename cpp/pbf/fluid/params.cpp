@@ -3,7 +3,8 @@
 namespace pbf {
 
 void FluidParams::check_together(Faults& faults) const {
-  // Below 1.2 d the lattice neighbors drop out of the kernel; above 4 d a particle has more than 250 neighbors.
+  // Below 1.2 d the lattice neighbors drop out of the kernel; above 4 d a particle has more than
+  // 250 neighbors.
   const double least = 1.2 * static_cast<double>(spacing);
   const double most = 4.0 * static_cast<double>(spacing);
   const Range range = between(least, most);

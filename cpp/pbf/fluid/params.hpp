@@ -22,12 +22,16 @@ struct FluidParams {
   static auto fields() {
     return std::tuple{
         Field{"spacing", &FluidParams::spacing, "m", inside(1e-6, 1e6),
-              "Particle distance at rest. Halving it makes eight times the particles and finer splashes."},
+              "Particle distance at rest. Halving it makes eight times the particles and finer "
+              "splashes."},
         Field{"support_radius", &FluidParams::support_radius, "m", above(0),
-              "Kernel support radius h, 2 * spacing if not given. Larger is smoother, slower and rounder."},
+              "Kernel support radius h, 2 * spacing if not given. Larger is smoother, slower and "
+              "rounder."},
         Field{"rest_density", &FluidParams::rest_density, "kg/m^3", above(0),
-              "Density at rest. Scales masses, densities and pressures; the motion does not depend on it."},
-        Field{"gravity", &FluidParams::gravity, "m/s^2", between(-1e6, 1e6), "Acceleration of every particle."},
+              "Density at rest. Scales masses, densities and pressures; the motion does not depend "
+              "on it."},
+        Field{"gravity", &FluidParams::gravity, "m/s^2", between(-1e6, 1e6),
+              "Acceleration of every particle."},
         Field{"kernel", &FluidParams::kernel, "", anything(),
               "poly6_spiky: poly6 for densities, spiky for gradients, as in the paper. "
               "cubic_spline: one kernel for both."},
@@ -53,28 +57,35 @@ struct SolverParams {
   static auto fields() {
     return std::tuple{
         Field{"iterations", &SolverParams::iterations, "", between(1, 1000),
-              "Solver iterations per time step. More make the fluid stiffer; a correction travels at most "
+              "Solver iterations per time step. More make the fluid stiffer; a correction travels "
+              "at most "
               "two support radii in each."},
         Field{"substeps", &SolverParams::substeps, "", between(1, 1000),
-              "Time steps per frame. More make the fluid stiffer and livelier: compression falls with their "
+              "Time steps per frame. More make the fluid stiffer and livelier: compression falls "
+              "with their "
               "square."},
         Field{"relaxation", &SolverParams::relaxation, "", at_least(0),
               "Added to the multiplier's denominator, as a share of its value on the rest lattice. "
               "Larger is softer and calmer. The paper's epsilon is relaxation * D_ideal."},
         Field{"constraint_floor", &SolverParams::constraint_floor, "", at_most_or_minus_infinity(0),
-              "The constraint is never taken below this. 0 pushes only, so drops come off freely; -inf pulls "
+              "The constraint is never taken below this. 0 pushes only, so drops come off freely; "
+              "-inf pulls "
               "as well and clumps at free surfaces."},
         Field{"tensile_strength", &SolverParams::tensile_strength, "", between(0, 10),
-              "Artificial repulsion between close particles, in units of 1 / D_ideal. Spreads thin sheets and "
-              "evens out spacing; too much inflates the fluid. The paper's k is tensile_strength / D_ideal."},
+              "Artificial repulsion between close particles, in units of 1 / D_ideal. Spreads thin "
+              "sheets and "
+              "evens out spacing; too much inflates the fluid. The paper's k is tensile_strength / "
+              "D_ideal."},
         Field{"tensile_distance", &SolverParams::tensile_distance, "h", inside(0, 1),
-              "Distance at which the artificial repulsion has its nominal strength, as a share of h."},
+              "Distance at which the artificial repulsion has its nominal strength, as a share of "
+              "h."},
         Field{"tensile_exponent", &SolverParams::tensile_exponent, "", between(1, 16),
               "How steeply the artificial repulsion grows as particles close up."},
         Field{"vorticity", &SolverParams::vorticity, "m/s", at_least(0),
               "Vorticity confinement: feeds eddies that the method damps. Livelier, then noisy."},
         Field{"xsph", &SolverParams::xsph, "", between(0, 1),
-              "Share of the mean neighboring velocity taken over in each step. More is syrupy and coherent."},
+              "Share of the mean neighboring velocity taken over in each step. More is syrupy and "
+              "coherent."},
         Field{"num_threads", &SolverParams::num_threads, "", between(0, 256),
               "Threads, 0 for all. The result has the same bits for any number."},
     };

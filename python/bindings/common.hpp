@@ -1,0 +1,21 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace pbf {
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+// One function per room, called by module.cpp in this order.
+void register_errors(py::module_& m);
+void register_params(py::module_& m);
+void register_fluid(py::module_& m);
+void register_stages(py::module_& m);
+void register_operators(py::module_& m);
+void register_render(py::module_& m);
+
+/// Raises one of the classes of pbfluids.errors.
+[[noreturn]] void raise(const char* error_class, const std::string& message);
+
+}  // namespace pbf
