@@ -1,0 +1,41 @@
+# The commands of daily life. Set-up is in scripts/setup.sh, C++ in CMakePresets.json.
+.PHONY: help demo test lint format bench docs clean
+.DEFAULT_GOAL := help
+export PATH := $(CURDIR)/.venv/bin:$(PATH)
+
+help:  ## say what there is
+	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/^([a-z]+):.*## */\1\t/' | expand -t 10
+
+demo:  ## set up, simulate and render a dam break; say where the video is
+	@scripts/setup.sh demo
+	@$(MAKE) --no-print-directory out/dam_break.mp4
+	@echo "The video: $(CURDIR)/out/dam_break.mp4   (the run: out/dam_break/)"
+
+out/dam_break.mp4: scenes/dam_break.toml .venv/stamps/package
+	pbfluids run $< --out out/dam_break --video $@ --size 1280x720
+
+test:  ## set up, then every test: C++, OpenGL, Python, the installed package, the README
+	@scripts/setup.sh test
+	cmake --workflow --preset release
+	python -m pytest
+
+lint:  ## format, types, layers, spelling, clang-tidy
+	@scripts/setup.sh lint
+	scripts/lint.sh
+
+format:  ## write the format that lint asks for
+	@scripts/setup.sh lint
+	scripts/lint.sh --fix
+
+bench:  ## time the step and the neighbor search
+	@scripts/setup.sh bench
+	cmake --workflow --preset bench
+	build/bench/bench/bench_step
+	build/bench/bench/bench_neighbors
+
+docs:  ## write the generated pages again
+	@scripts/setup.sh docs
+	python scripts/update_docs.py
+
+clean:  ## remove what was built, simulated and installed here
+	rm -rf build out .venv
