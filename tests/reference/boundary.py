@@ -1,0 +1,35 @@
+"""Walls: the lattice of fixed particles outside a box, and the projection back into it."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+
+from reference.params import Array, Box, Fluid
+
+
+def boundary_lattice(fluid: Fluid, box: Box) -> Array:
+    """Boundary particles q of the box [m]: the product of three axes, less the points inside.
+
+    Per axis, with d the spacing: K = ceil(h/d) layers below the wall, the first d/2 outside it; as
+    many above; between the walls n = max(1, round(L/d)) cells of size L/n, a point at each center.
+    The layers outside thus stand opposite the fluid's, whatever the length of the box.
+    """
+    d = fluid.spacing
+    layers = math.ceil(fluid.h / d)
+    outside = d * (np.arange(layers) + 0.5)
+    axes = []
+    for lower, upper in zip(box.lower, box.upper, strict=True):
+        n = max(1, round((upper - lower) / d))
+        inside = lower + (upper - lower) / n * (np.arange(n) + 0.5)
+        axes.append(np.concatenate([lower - outside[::-1], inside, upper + outside]))
+    points = np.array(list(itertools.product(*axes)))
+    within = np.all((points > box.lower) & (points < box.upper), axis=1)
+    return points[~within]
+
+
+def project(x: Array, box: Box | None) -> Array:
+    """The point of the closed box nearest to x: collision detection and response in one."""
+    return x.copy() if box is None else np.clip(x, box.lower, box.upper)
