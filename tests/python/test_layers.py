@@ -41,7 +41,7 @@ def test_our_own_sources_follow_the_picture() -> None:
         ("attic/a.cpp", "int a;", "not in the picture"),
         ("fluid/a.cpp", "#pragma omp parallel for", "only in core/parallel"),
         ("fluid/a.cpp", "#include <omp.h>", "only in core/parallel"),
-        ("core/parallel.hpp", "#pragma omp parallel for reduction(+ : sum)", "order of the threads"),
+        ("core/parallel.hpp", "#pragma omp parallel for reduction(+:s)", "order of the threads"),
         ("scene/a.cpp", "glDrawArrays(mode, 0, 3);", "GL and EGL stay"),
         ("core/a.cpp", "auto format = GL_RGBA8;", "GL and EGL stay"),
         ("neighbors/a.hpp", "#include <unordered_map>", "standard library"),
