@@ -18,10 +18,6 @@ inline constexpr int kMaxThreads = 256;
 /// ever; results have the same bits either way.
 int usable_threads(int requested);
 
-/// Particles handed to a thread at a time: large enough to hide the scheduler, small enough to
-/// balance a splash.
-inline constexpr Index kChunk = 256;
-
 /// Calls f(first, last) for consecutive ranges that cover [0, n), several at once. f must write
 /// only what belongs to its range: then the schedule cannot show in the result. An exception thrown
 /// by f is rethrown here, after all threads have come home.

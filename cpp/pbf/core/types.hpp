@@ -18,6 +18,10 @@ using Points = Eigen::Matrix<Real, 3, Eigen::Dynamic>;
 using PointsView = Eigen::Ref<const Points>;
 using ScalarsView = Eigen::Ref<const Scalars>;
 
+/// Particles handed to a thread at a time: large enough to hide the scheduler, small enough to
+/// balance a splash.
+inline constexpr Index kChunk = 256;
+
 using Ids = Eigen::Array<std::int64_t, Eigen::Dynamic, 1>;
 
 }  // namespace pbf

@@ -1,18 +1,26 @@
 #pragma once
 
 #include "pbf/core/fields.hpp"
+#include "pbf/kernels/cubic_spline.hpp"
+#include "pbf/kernels/poly6_spiky.hpp"
 
 #include <array>
-#include <numbers>
 
 namespace pbf {
 
-/// Which functions stand for W and grad W.
+/// Which functions stand for W and ∇W.
 enum class KernelChoice { poly6_spiky, cubic_spline };
 
 template <>
 struct Choices<KernelChoice> {
   static constexpr std::array names{"poly6_spiky", "cubic_spline"};
 };
+
+/// Calls f with the chosen kernel of support radius h, so that loops are compiled for each kernel.
+template <class T = Real, class F>
+decltype(auto) with_kernel(KernelChoice choice, T h, F&& f) {
+  if (choice == KernelChoice::cubic_spline) return f(CubicSpline<T>(h));
+  return f(Poly6Spiky<T>(h));
+}
 
 }  // namespace pbf

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pbf/core/fields.hpp"
+
+namespace pbf {
+
+/// An axis-aligned tank: particles stay in the closed box [lower, upper].
+struct Box {
+  Vec3 lower{0.0F, 0.0F, 0.0F};
+  Vec3 upper{1.0F, 1.0F, 1.0F};
+
+  /// The point of the box nearest to x: collision response without friction or bounce.
+  /// What is not a number stays so, to be found and reported at the end of the step.
+  [[nodiscard]] Vec3 project(const Vec3& x) const {
+    Vec3 inside = x;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (x[axis] < lower[axis]) inside[axis] = lower[axis];
+      if (x[axis] > upper[axis]) inside[axis] = upper[axis];
+    }
+    return inside;
+  }
+  [[nodiscard]] bool contains(const Vec3& x) const {
+    return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
+  }
+
+  static constexpr const char* kName = "Box";
+  static auto fields() {
+    return std::tuple{
+        Field{"lower", &Box::lower, "m", between(-1e9, 1e9),
+              "Corner with the smallest coordinates."},
+        Field{"upper", &Box::upper, "m", between(-1e9, 1e9),
+              "Corner with the largest coordinates."},
+    };
+  }
+  void check_together(Faults& faults) const {
+    if (!(upper.array() > lower.array()).all()) {
+      faults.add("upper", upper, "m",
+                 "must be greater than lower = " + to_text(lower) + " m on every axis");
+    }
+  }
+};
+
+}  // namespace pbf

@@ -1,0 +1,48 @@
+#include "pbf/boundary/wall_lattice.hpp"
+
+#include <algorithm>
+
+namespace pbf {
+
+WallLattice::WallLattice(const Box& box, Real spacing, Real h)
+    : box_(box), spacing_(spacing), h_(h), layers_(static_cast<int>(std::ceil(h / spacing))) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length =
+        static_cast<double>(box.upper[axis]) - static_cast<double>(box.lower[axis]);
+    cells_[axis] = std::max<Index>(1, std::llround(length / static_cast<double>(spacing)));
+    cell_size_[axis] = static_cast<Real>(length / static_cast<double>(cells_[axis]));
+  }
+}
+
+WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
+  Sites sites;
+  const auto add_if_near = [&](Real at) {
+    if (std::abs(x - at) < h_) sites.at[static_cast<std::size_t>(sites.size++)] = at;
+  };
+  const Real from_lower = x - box_.lower[axis];
+  const Real to_upper = box_.upper[axis] - x;
+
+  if (from_lower < h_) {
+    for (int k = layers_ - 1; k >= 0; --k) {
+      add_if_near(box_.lower[axis] - (static_cast<Real>(k) + 0.5F) * spacing_);
+    }
+  }
+  sites.first_inside = sites.size;
+  const Real size = cell_size_[axis];
+  const Index first =
+      std::max<Index>(0, static_cast<Index>(std::floor((from_lower - h_) / size - 0.5F)));
+  const Index last = std::min<Index>(
+      cells_[axis] - 1, static_cast<Index>(std::ceil((from_lower + h_) / size - 0.5F)));
+  for (Index k = first; k <= last; ++k) {
+    add_if_near(box_.lower[axis] + (static_cast<Real>(k) + 0.5F) * size);
+  }
+  sites.end_inside = sites.size;
+  if (to_upper < h_) {
+    for (int k = 0; k < layers_; ++k) {
+      add_if_near(box_.upper[axis] + (static_cast<Real>(k) + 0.5F) * spacing_);
+    }
+  }
+  return sites;
+}
+
+}  // namespace pbf

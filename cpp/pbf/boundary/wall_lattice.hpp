@@ -1,0 +1,59 @@
+#pragma once
+
+#include "pbf/boundary/box.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace pbf {
+
+/// The boundary particles of a box: a closely packed lattice outside its walls, thick enough to
+/// fill the support radius, first layer half a spacing outside. It is never stored; sites are
+/// counted off where a particle is near, so a large box costs only where the fluid is.
+///
+/// On each axis the sites are  lower − (k + ½) d  and  upper + (k + ½) d  outside, k = 0 …
+/// ceil(h/d) − 1, and the centers of round(L/d) equal cells inside, so that the lattice fits both
+/// walls. The boundary particles are all combinations of three coordinates but those with all three
+/// inside.
+class WallLattice {
+ public:
+  WallLattice(const Box& box, Real spacing, Real h);
+
+  /// Calls f(q) for every boundary particle with ‖x − q‖ < h. x lies in the box.
+  template <class F>
+  void for_each_near(const Vec3& x, F&& f) const {
+    if (((x - box_.lower).array() >= h_).all() && ((box_.upper - x).array() >= h_).all()) return;
+    const std::array<Sites, 3> sites{sites_near(0, x[0]), sites_near(1, x[1]), sites_near(2, x[2])};
+    for (int c = 0; c < sites[2].size; ++c) {
+      for (int b = 0; b < sites[1].size; ++b) {
+        const bool inside = sites[2].inside(c) && sites[1].inside(b);
+        for (int a = 0; a < sites[0].size; ++a) {
+          if (inside && sites[0].inside(a)) continue;
+          const Vec3 q{sites[0].at[a], sites[1].at[b], sites[2].at[c]};
+          if ((x - q).squaredNorm() < h_ * h_) f(q);
+        }
+      }
+    }
+  }
+
+ private:
+  /// Coordinates of the sites within h of a coordinate, in ascending order.
+  struct Sites {
+    // h is at most 4 d and inner cells at least 2/3 d: 2 · (4 + 1) outside and 2 · 4 / (2/3) + 2
+    // inside.
+    std::array<Real, 24> at{};
+    int size = 0;
+    int first_inside = 0;
+    int end_inside = 0;
+    [[nodiscard]] bool inside(int k) const { return k >= first_inside && k < end_inside; }
+  };
+  [[nodiscard]] Sites sites_near(int axis, Real x) const;
+
+  Box box_;
+  Real spacing_, h_;
+  int layers_;
+  std::array<Index, 3> cells_{};
+  Vec3 cell_size_;
+};
+
+}  // namespace pbf

@@ -1,0 +1,30 @@
+#include "pbf/fluid/discretization.hpp"
+
+namespace pbf {
+namespace {
+
+Calibration checked_calibration(const FluidParams& params) {
+  validate(params);
+  return calibrate(params.kernel, static_cast<double>(params.spacing),
+                   static_cast<double>(params.h()));
+}
+
+}  // namespace
+
+Discretization::Discretization(const FluidParams& params, const std::optional<Box>& box)
+    : fluid(params), domain(box), h(params.h()) {
+  const Calibration calibration = checked_calibration(params);
+  V = static_cast<Real>(calibration.volume);
+  ideal_denominator = static_cast<Real>(calibration.ideal_denominator);
+  if (!domain) return;
+  validate(*domain);
+  const Vec3 size = domain->upper - domain->lower;
+  if ((size.array() < params.spacing).any()) {
+    throw InvalidParameter("domain: its size " + to_text(size) +
+                           " m must be at least the spacing (" + to_text(params.spacing) +
+                           " m) on every axis");
+  }
+  walls.emplace(*domain, params.spacing, h);
+}
+
+}  // namespace pbf

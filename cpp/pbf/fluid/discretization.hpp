@@ -1,0 +1,30 @@
+#pragma once
+
+#include "pbf/boundary/boundary_list.hpp"
+#include "pbf/fluid/params.hpp"
+#include "pbf/kernels/calibration.hpp"
+#include "pbf/neighbors/neighbor_list.hpp"
+
+namespace pbf {
+
+/// A fluid's parameters with what follows from them once: calibration and walls.
+struct Discretization {
+  FluidParams fluid;
+  std::optional<Box> domain;
+  Real h;                  ///< support radius                                       [m]
+  Real V;                  ///< particle volume on the rest lattice                  [m³]
+  Real ideal_denominator;  ///< D_ideal: Σ_k ‖∇_k C‖² on the rest lattice            [1/m²]
+  std::optional<WallLattice> walls;
+
+  /// Throws InvalidParameter if the parameters break a rule or the domain is thinner than a
+  /// particle.
+  explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});
+};
+
+/// Who is near whom, in sorted order: found once per step at the predicted positions.
+struct Neighborhood {
+  NeighborList fluid;
+  BoundaryList boundary;
+};
+
+}  // namespace pbf

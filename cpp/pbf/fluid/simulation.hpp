@@ -1,0 +1,79 @@
+#pragma once
+
+#include "pbf/fluid/discretization.hpp"
+#include "pbf/fluid/step_report.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace pbf {
+
+/// Position Based Fluids: particles in, time steps, particles out. Every array that leaves is in
+/// order of ids, the order in which particles were added; inside they are sorted by cell. Not for
+/// several threads at once.
+class Simulation {
+ public:
+  /// Throws InvalidParameter for parameters that break a rule. Without a domain space is open.
+  explicit Simulation(const FluidParams& fluid,
+                      const SolverParams& solver = {},
+                      const std::optional<Box>& domain = {});
+
+  /// Copies particles in, at rest if no velocities are given. Returns their ids, consecutive
+  /// numbers. Throws InvalidParameter if a value is not finite, a position outside the domain, or
+  /// the counts differ.
+  Ids add_particles(const PointsView& positions, const std::optional<Points>& velocities = {});
+
+  /// One time step of dt seconds: Algorithm 1 of [MM13]. Throws InvalidParameter unless dt is
+  /// finite and positive, and SimulationFailed if positions stop being finite or particles pile up;
+  /// the state is then that before the call.
+  StepReport step(Real dt);
+
+  /// One frame of `seconds`, in solver().substeps steps. `between_steps` is called after each; what
+  /// it throws ends the frame there.
+  StepReport advance(Real seconds, const std::function<void()>& between_steps = {});
+
+  [[nodiscard]] Index size() const { return state_.x.cols(); }
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] std::int64_t step_count() const { return step_count_; }
+  [[nodiscard]] const FluidParams& fluid() const { return disc_.fluid; }
+  [[nodiscard]] const SolverParams& solver() const { return solver_; }
+  [[nodiscard]] const std::optional<Box>& domain() const { return disc_.domain; }
+
+  [[nodiscard]] Points positions() const;   ///< [m]
+  [[nodiscard]] Points velocities() const;  ///< [m/s]
+  [[nodiscard]] Scalars densities() const;  ///< ρ_i at these positions [kg/m³]
+  [[nodiscard]] Scalars multipliers()
+      const;  ///< λ_i of the last iteration [m²], zero before the first step
+  [[nodiscard]] Ids ids() const;
+  /// Of time, steps, ids, positions and velocities: equal for equal bits.
+  [[nodiscard]] std::uint64_t state_hash() const;
+
+  void set_solver(const SolverParams& solver);
+
+ private:
+  void sort_by_cell();
+  void measure(StepReport& report);
+
+  Discretization disc_;
+  SolverParams solver_;
+  double time_ = 0;
+  std::int64_t step_count_ = 0;
+
+  /// Sorted by cell; ids[k] is the row that particle k has outside.
+  struct State {
+    Points x, v;
+    Ids ids;
+    Scalars lambda;
+  };
+  State state_, sorted_;
+
+  // Of the step under way; swapped with the state when it has succeeded.
+  Points x_star_, v_new_;
+  Scalars lambda_new_;
+  Points dp_, omega_;
+  Scalars relative_density_;
+  CellGrid grid_;
+  Neighborhood near_;
+};
+
+}  // namespace pbf

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "pbf/fluid/discretization.hpp"
+
+namespace pbf {
+
+/// XSPH viscosity, Eq. 17 [MM13]:  v_new,i = v_i + strength · V Σ_j (v_j − v_i) W_ij          [m/s]
+/// Reads the old velocities and writes new ones: in place, the result would depend on thread
+/// timing.
+void smooth_velocities(const Neighborhood& near,
+                       const Discretization& disc,
+                       const PointsView& x,
+                       const PointsView& v,
+                       Real strength,
+                       int threads,
+                       Points& v_new);
+
+}  // namespace pbf

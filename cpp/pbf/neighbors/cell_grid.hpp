@@ -1,0 +1,85 @@
+#pragma once
+
+#include "pbf/core/types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pbf {
+
+/// Farthest that a particle may be from the origin, in cells: float32 still tells its neighbors
+/// apart there.
+inline constexpr double kFarthestCell = 1 << 20;
+
+/// Sorts particles into cubic cells and keeps only the cells that hold some, in the order of their
+/// keys. Memory and time follow the number of particles, however far they are spread.
+class CellGrid {
+ public:
+  /// Finds the order of x by cell; equal cells keep the order they came in. Cells are a hair larger
+  /// than h, so that rounding cannot put two particles closer than h two cells apart. Throws
+  /// SimulationFailed if a coordinate is not finite or beyond kFarthestCell cells.
+  void build(const PointsView& x, Real h, int threads);
+
+  /// Place in cell order → index in the x that was given.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+  /// Walks the cells that hold the particles [first, last) of the sorted order, calling
+  /// f(begin, end, ranges): the cell's particles, clipped to [first, last), and the nine ranges of
+  /// sorted particles (three cells in x each) that hold all their neighbors.
+  struct Span {
+    std::uint32_t begin, end;
+  };
+  using Ranges = std::array<Span, 9>;
+  template <class F>
+  void for_each_cell(Index first, Index last, F&& f) const;
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t particle;
+  };
+  void sort_entries(std::uint64_t largest_key);
+
+  std::vector<Entry> entries_, scratch_;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint64_t> keys_;    // of the cells that hold particles, ascending
+  std::vector<std::uint32_t> starts_;  // first sorted particle of each, and the end
+  std::uint64_t stride_y_ = 1, stride_z_ = 1;
+};
+
+template <class F>
+void CellGrid::for_each_cell(Index first, Index last, F&& f) const {
+  if (first >= last) return;
+  const auto cell_of_first =
+      std::upper_bound(starts_.begin(), starts_.end(), static_cast<std::uint32_t>(first));
+  auto cell = static_cast<std::size_t>(cell_of_first - starts_.begin()) - 1;
+
+  // A cell's neighbors lie in nine rows; in each, the cells x−1, x, x+1 have consecutive keys and
+  // so their particles lie in one range. As the cell's key grows so do the rows', so nine cursors
+  // only move forward.
+  std::array<std::int64_t, 9> row_offset{};
+  std::array<std::size_t, 9> low{}, high{};
+  for (int k = 0; k < 9; ++k) {
+    row_offset[k] = (k / 3 - 1) * static_cast<std::int64_t>(stride_z_) +
+                    (k % 3 - 1) * static_cast<std::int64_t>(stride_y_);
+    const auto row = keys_[cell] + row_offset[k];
+    low[k] = static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), row - 1) -
+                                      keys_.begin());
+    high[k] = low[k];
+  }
+  for (; cell < keys_.size() && starts_[cell] < last; ++cell) {
+    Ranges ranges;
+    for (int k = 0; k < 9; ++k) {
+      const auto row = keys_[cell] + row_offset[k];
+      while (low[k] < keys_.size() && keys_[low[k]] < row - 1) ++low[k];
+      high[k] = std::max(high[k], low[k]);
+      while (high[k] < keys_.size() && keys_[high[k]] <= row + 1) ++high[k];
+      ranges[k] = {starts_[low[k]], starts_[high[k]]};
+    }
+    f(std::max<Index>(starts_[cell], first), std::min<Index>(starts_[cell + 1], last), ranges);
+  }
+}
+
+}  // namespace pbf
