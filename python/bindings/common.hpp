@@ -14,6 +14,7 @@ void register_fluid(py::module_& m);
 void register_stages(py::module_& m);
 void register_operators(py::module_& m);
 void register_render(py::module_& m);
+void register_build(py::module_& m);
 
 /// Raises one of the classes of pbfluids.errors.
 [[noreturn]] void raise(const char* error_class, const std::string& message);

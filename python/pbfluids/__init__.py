@@ -1,0 +1,71 @@
+"""Position Based Fluids and headless screen-space fluid rendering.
+
+>>> import pbfluids as pbf
+>>> scene = pbf.Scene.builtin("dam_break")
+>>> with pbf.Renderer(1280, 720) as renderer:
+...     for frame in scene.frames():
+...         image = renderer.render(frame.positions, scene.camera, scene.render_params)
+
+Lengths are in meters, times in seconds, masses in kilograms; y points up in the built-in scenes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pbfluids import errors, operators
+from pbfluids._core import (
+    Box,
+    Camera,
+    FluidParams,
+    RenderParams,
+    SolverParams,
+    StepReport,
+    ball,
+    block,
+)
+from pbfluids._version import __version__
+from pbfluids.errors import FluidError
+from pbfluids.render import Renderer
+from pbfluids.simulation import Simulation
+
+if TYPE_CHECKING:
+    from pbfluids.diagnosis import doctor
+    from pbfluids.scene import Frame, Scene
+
+__all__ = [
+    "Box",
+    "Camera",
+    "FluidError",
+    "FluidParams",
+    "Frame",
+    "RenderParams",
+    "Renderer",
+    "Scene",
+    "Simulation",
+    "SolverParams",
+    "StepReport",
+    "__version__",
+    "ball",
+    "block",
+    "doctor",
+    "errors",
+    "operators",
+]
+
+# Scenes bring pydantic, which takes longer to import than all the rest.
+_LAZY = {"Frame": "scene", "Scene": "scene", "doctor": "diagnosis"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LAZY:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f"{__name__}.{_LAZY[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

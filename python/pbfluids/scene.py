@@ -1,0 +1,362 @@
+"""Scenes: what fluid is where, how it is solved and how it is seen, from a TOML file."""
+
+from __future__ import annotations
+
+import copy
+import difflib
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from pbfluids import _core, toml
+from pbfluids.errors import InvalidParameter, SceneError
+from pbfluids.scene_check import check
+from pbfluids.scene_model import STRUCTS, TABLES, SceneModel
+from pbfluids.simulation import Simulation
+
+__all__ = ["Frame", "Scene"]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The fluid at one moment, in stable particle order.
+
+    Attributes
+    ----------
+    index
+        Number of the frame; 0 is the initial state.
+    time
+        Simulated time [s].
+    positions, velocities
+        Shape (n, 3), float32 [m], [m/s]; row i is particle ``ids[i]``.
+    ids
+        Shape (n,), int64.
+    state_hash
+        Hash of the state's bits, equal for any number of threads.
+    report
+        What the time steps since the frame before took and reached; None in frame 0.
+    """
+
+    index: int
+    time: float
+    positions: npt.NDArray[np.float32]
+    velocities: npt.NDArray[np.float32]
+    ids: npt.NDArray[np.int64]
+    state_hash: int
+    report: _core.StepReport | None
+
+
+class Scene:
+    """A checked scene. It never changes; `replace` makes another.
+
+    Parameters
+    ----------
+    data
+        The scene's tables, as TOML gives them.
+    source
+        What an error message calls the scene, for example its path.
+
+    Raises
+    ------
+    SceneError
+        With a line for every fault.
+    """
+
+    def __init__(self, data: Mapping[str, Any], source: str = "scene") -> None:
+        plain = _plain(data)
+        model, faults = check(plain)
+        if faults or model is None:
+            raise SceneError(f"{source}: {_count(faults)}\n  " + "\n  ".join(faults))
+        self._source = source
+        self._data = plain
+        self._tables: dict[str, Any] = model.model_dump(by_alias=True)
+
+    @classmethod
+    def load(cls, path: str | Path, **overrides: Any) -> Scene:
+        """Read a scene file.
+
+        Parameters
+        ----------
+        path
+            A TOML file.
+        **overrides
+            Changes, as `replace` takes them.
+
+        Raises
+        ------
+        SceneError
+            If the file cannot be read, or with a line for every fault in it.
+        """
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise SceneError(f"{path}: cannot be read: {reason}") from error
+        return cls(_changed(_parsed(text, str(path)), overrides), str(path))
+
+    @classmethod
+    def builtin(cls, name: str, **overrides: Any) -> Scene:
+        """Make one of the scenes that come with the package.
+
+        Parameters
+        ----------
+        name
+            One of `names`.
+        **overrides
+            Changes, as `replace` takes them: ``Scene.builtin("dam_break", spacing=0.03)``.
+
+        Raises
+        ------
+        SceneError
+            If there is no such scene, or with a line for every fault that the changes make.
+        """
+        if name not in cls.names():
+            close = difflib.get_close_matches(name, cls.names(), n=1)
+            hint = f'did you mean "{close[0]}"?' if close else "known: " + ", ".join(cls.names())
+            raise SceneError(f'no built-in scene is called "{name}", {hint}')
+        text = (_builtin_scenes() / f"{name}.toml").read_text(encoding="utf-8")
+        return cls(_changed(_parsed(text, name), overrides), name)
+
+    @staticmethod
+    def names() -> list[str]:
+        """Names of the built-in scenes."""
+        files = (file.name for file in _builtin_scenes().iterdir())
+        return sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml"))
+
+    @staticmethod
+    def json_schema() -> dict[str, Any]:
+        """Make the JSON Schema of scene files, with the unit, range and default of each key."""
+        schema = SceneModel.model_json_schema(by_alias=True)
+        return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
+
+    def replace(self, **overrides: Any) -> Scene:
+        """Make a scene with some things changed.
+
+        Parameters
+        ----------
+        **overrides
+            A key of the file (``duration=1.0``), a table whose keys are merged
+            (``solver={"iterations": 8}``), a dotted key (``**{"solver.iterations": 8}``), or the
+            name of a parameter that only one table has (``iterations=8``).
+
+        Raises
+        ------
+        SceneError
+            With a line for every fault that the changes make.
+        """
+        return Scene(_changed(self._data, overrides), self._source)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Give all values, but for those that follow from the rest of the scene."""
+        return _without_absent(self._tables)
+
+    def to_toml(self) -> str:
+        """Write the scene as a file with all values, which `load` takes back."""
+        return toml.dumps(self.as_dict())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self._tables == other._tables
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.name}: {self.duration:g} s, {self.frame_count} frames>"
+
+    @property
+    def name(self) -> str:
+        """Name: letters, digits, _ and -."""
+        return str(self._tables["name"])
+
+    @property
+    def description(self) -> str:
+        """One line: what there is to see."""
+        return str(self._tables["description"])
+
+    @property
+    def duration(self) -> float:
+        """Simulated time [s]."""
+        return float(self._tables["duration"])
+
+    @property
+    def frame_rate(self) -> float:
+        """Frames per simulated second [1/s]."""
+        return float(self._tables["frame_rate"])
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames: the initial state, then as many as it takes to reach the duration."""
+        return 1 + math.ceil(self.duration * self.frame_rate - 1e-6)
+
+    @property
+    def fluid(self) -> _core.FluidParams:
+        """What the fluid is."""
+        return _core.FluidParams(**self._given("fluid"))
+
+    @property
+    def solver(self) -> _core.SolverParams:
+        """How the constraint is solved."""
+        return _core.SolverParams(**self._given("solver"))
+
+    @property
+    def domain(self) -> _core.Box | None:
+        """The box that holds the fluid, None for open space."""
+        domain = self._tables["domain"]
+        return _core.Box(domain["lower"], domain["upper"]) if domain else None
+
+    @property
+    def camera(self) -> _core.Camera:
+        """Where the scene is seen from; by default so that all of it is seen."""
+        given = self._given("camera")
+        lower, upper = self._bounds()
+        middle, reach = (lower + upper) / 2, float(np.linalg.norm(upper - lower)) / 2
+        target = np.asarray(given.get("target", middle))
+        angle = math.radians(_core.Camera(**{**given, "eye": (0, 0, 1), "target": (0, 0, 0)}).fov_y)
+        view = np.array([0.35, 0.35, 1.0])
+        eye = target + reach / math.sin(angle / 2) * view / np.linalg.norm(view)
+        return _core.Camera(**{"eye": eye.tolist(), "target": target.tolist(), **given})
+
+    @property
+    def render_params(self) -> _core.RenderParams:
+        """How the fluid is drawn; sizes follow from its spacing, the tank from the domain."""
+        spacing, domain = self.fluid.spacing, self._tables["domain"]
+        derived = {"radius": spacing, "particle_volume": spacing**3}
+        if domain:
+            derived |= {"tank_lower": domain["lower"], "tank_upper": domain["upper"]}
+        return _core.RenderParams(**{**derived, **self._given("render")})
+
+    def particles(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+        """Positions and velocities at the start, each of shape (n, 3), float32 [m], [m/s]."""
+        spacing = self.fluid.spacing
+        positions, velocities = [], []
+        for block in self._tables["blocks"]:
+            positions.append(_core.block(block["lower"], block["upper"], spacing))
+            velocities.append(block["velocity"])
+        for ball in self._tables["balls"]:
+            positions.append(_core.ball(ball["center"], ball["radius"], spacing))
+            velocities.append(ball["velocity"])
+        counts = [len(rows) for rows in positions]
+        return np.concatenate(positions), np.repeat(np.float32(velocities), counts, axis=0)
+
+    def simulation(self) -> Simulation:
+        """Make a simulation of the scene, at its start."""
+        simulation = Simulation(self.fluid, self.solver, domain=self.domain)
+        positions, velocities = self.particles()
+        simulation.add_particles(positions, velocities)
+        return simulation
+
+    def frames(
+        self, count: int | None = None, progress: Callable[[Frame], None] | None = None
+    ) -> Iterator[Frame]:
+        """Simulate, and give the fluid at each frame.
+
+        Parameters
+        ----------
+        count
+            Number of frames, frame 0 among them; `frame_count` if not given.
+        progress
+            Called with each frame before it is given.
+
+        Yields
+        ------
+        Frame
+            Frame 0 is the initial state; its arrays are the caller's own.
+
+        Raises
+        ------
+        InvalidParameter
+            If the count is not positive.
+        SimulationFailed
+            If a step cannot be completed.
+        """
+        if count is not None and count < 1:
+            raise InvalidParameter(f"count = {count}: must be >= 1 frame")
+        return self._simulated(self.frame_count if count is None else count, progress)
+
+    def _simulated(self, count: int, progress: Callable[[Frame], None] | None) -> Iterator[Frame]:
+        simulation = self.simulation()
+        report = None
+        for index in range(count):
+            if index > 0:
+                report = simulation.advance(1.0 / self.frame_rate)
+            frame = Frame(
+                index,
+                simulation.time,
+                simulation.positions,
+                simulation.velocities,
+                simulation.ids,
+                simulation.state_hash(),
+                report,
+            )
+            if progress is not None:
+                progress(frame)
+            yield frame
+
+    def _given(self, section: str) -> dict[str, Any]:
+        return {key: value for key, value in self._tables[section].items() if value is not None}
+
+    def _bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Corners [m] of the domain, in open space of the fluid at the start."""
+        if domain := self._tables["domain"]:
+            return np.asarray(domain["lower"], float), np.asarray(domain["upper"], float)
+        positions = self.particles()[0].astype(float)
+        return positions.min(axis=0), positions.max(axis=0)
+
+
+def _builtin_scenes() -> Any:
+    return resources.files("pbfluids") / "scenes"
+
+
+def _parsed(text: str, source: str) -> dict[str, Any]:
+    try:
+        return toml.loads(text)
+    except toml.TOMLDecodeError as error:
+        raise SceneError(f"{source}: not TOML: {error}") from error
+
+
+def _count(faults: list[str]) -> str:
+    return "1 fault" if len(faults) == 1 else f"{len(faults)} faults"
+
+
+def _plain(value: Any) -> Any:
+    """Turn what Python code likes to give, tuples and arrays, into what TOML gives."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _changed(data: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
+    result: dict[str, Any] = copy.deepcopy(dict(data))
+    for key, value in overrides.items():
+        *tables, last = key.split(".")
+        if not tables and last not in SceneModel.model_fields:
+            owners = [name for name in STRUCTS if last in TABLES[name].model_fields]
+            tables = owners if len(owners) == 1 else []
+        target = result
+        for table in tables:
+            inner = target.setdefault(table, {})
+            if not isinstance(inner, dict):
+                raise SceneError(f"{key}: {table} is no table")
+            target = inner
+        if isinstance(value, Mapping) and isinstance(target.get(last), dict):
+            target[last] = {**target[last], **value}
+        else:
+            target[last] = value
+    return result
+
+
+def _without_absent(value: Any) -> Any:
+    """Leave out None and empty lists: TOML has no word for the one and no need for the other."""
+    if isinstance(value, dict):
+        items = ((key, _without_absent(item)) for key, item in value.items())
+        return {key: item for key, item in items if item is not None and item != []}
+    return [_without_absent(item) for item in value] if isinstance(value, list) else value

@@ -1,0 +1,127 @@
+"""Find what is wrong with where the fluid of a scene is."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from pbfluids import _core
+from pbfluids.errors import InvalidParameter
+from pbfluids.machine import available_memory
+from pbfluids.scene_model import Ball, Block, Domain
+
+# Memory per particle of a simulation and its renderer together: measured, rounded up.
+BYTES_PER_PARTICLE = 1024
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A block, or a ball with the box around it, and its path inside the scene."""
+
+    path: str
+    lower: Sequence[float]
+    upper: Sequence[float]
+    center: Sequence[float] = ()
+    radius: float | None = None
+
+    @classmethod
+    def of(cls, path: str, item: Block | Ball) -> Shape:
+        """Make a shape from what the scene says."""
+        if isinstance(item, Block):
+            return cls(path, item.lower, item.upper)
+        lower = [x - item.radius for x in item.center]
+        upper = [x + item.radius for x in item.center]
+        return cls(path, lower, upper, item.center, item.radius)
+
+    def volume(self) -> float:
+        """Volume [m^3]."""
+        if self.radius is not None:
+            return 4 / 3 * math.pi * self.radius * self.radius * self.radius
+        return math.prod(b - a for a, b in zip(self.lower, self.upper, strict=True))
+
+    def overlap(self, other: Shape) -> float:
+        """How deep the shapes reach into each other [m]; 0 or less if they do not."""
+        if self.radius is None and other.radius is not None:
+            return other.overlap(self)
+        corners = zip(self.lower, self.upper, other.lower, other.upper, strict=True)
+        if self.radius is None:
+            return min(min(b, d) - max(a, c) for a, b, c, d in corners)
+        if other.radius is not None:
+            return self.radius + other.radius - math.dist(self.center, other.center)
+        sides = zip(self.center, other.lower, other.upper, strict=True)
+        return self.radius - math.dist(self.center, [min(max(x, a), b) for x, a, b in sides])
+
+
+def geometry_faults(
+    items: Sequence[tuple[str, Block | Ball]], domain: Domain | None, spacing: float | None
+) -> Iterator[str]:
+    """Check blocks and balls, given with their paths, against each other, domain and memory.
+
+    Parameters
+    ----------
+    items
+        What holds fluid, with its path inside the scene.
+    domain
+        The box around it, None for open space.
+    spacing
+        Particle distance at rest [m]; None if it is not known, and then nothing that it decides
+        is checked.
+
+    Yields
+    ------
+    str
+        A line for each fault.
+    """
+    shapes = []
+    for shape in (Shape.of(path, item) for path, item in items):
+        faults = list(_extent_faults(shape, spacing or 0.0))
+        yield from faults
+        shapes += [] if faults else [shape]
+    tolerance = 1e-3 * (spacing or 0.0)
+    if domain is not None:
+        try:
+            _core.Box(domain.lower, domain.upper)
+        except InvalidParameter as error:
+            yield from str(error).replace("Box.", "domain.").splitlines()
+        else:
+            for shape in shapes:
+                yield from _outside_faults(shape, domain, tolerance)
+    for a, b in itertools.combinations(shapes, 2):
+        if (depth := a.overlap(b)) > tolerance:
+            yield f"{b.path}: overlaps {a.path} by {depth:g} m; fluid cannot be there twice"
+    if spacing is not None:
+        yield from _memory_faults(shapes, spacing)
+
+
+def _extent_faults(shape: Shape, spacing: float) -> Iterator[str]:
+    for axis, (a, b) in enumerate(zip(shape.lower, shape.upper, strict=True)):
+        if not b > a:
+            yield f"{shape.path}.upper[{axis}] = {b:g} m: must be > lower[{axis}] = {a:g} m"
+        elif b - a < 0.999 * spacing:
+            yield (
+                f"{shape.path}: {b - a:g} m along {'xyz'[axis]} is less than fluid.spacing = "
+                f"{spacing:g} m; no particle fits in"
+            )
+
+
+def _outside_faults(shape: Shape, domain: Domain, tolerance: float) -> Iterator[str]:
+    for axis in range(3):
+        low, high = shape.lower[axis], shape.upper[axis]
+        if low < domain.lower[axis] - tolerance:
+            wall = domain.lower[axis]
+            yield f"{shape.path}: outside the domain, {'xyz'[axis]} = {low:g} m < {wall:g} m"
+        if high > domain.upper[axis] + tolerance:
+            wall = domain.upper[axis]
+            yield f"{shape.path}: outside the domain, {'xyz'[axis]} = {high:g} m > {wall:g} m"
+
+
+def _memory_faults(shapes: Sequence[Shape], spacing: float) -> Iterator[str]:
+    particles = sum(shape.volume() for shape in shapes) / spacing**3
+    need, have = particles * BYTES_PER_PARTICLE, available_memory()
+    if need > have:
+        yield (
+            f"fluid.spacing = {spacing:g} m: makes about {particles:.2g} particles, which need "
+            f"{need / 2**30:.2g} GiB of memory of which {have / 2**30:.2g} GiB are free; enlarge it"
+        )

@@ -1,0 +1,161 @@
+"""The shape of a scene file, as pydantic models.
+
+The tables that stand for parameter structs are made from the structs' own description
+(``FluidParams.describe()`` and so on): names, units, ranges, defaults and texts have one source,
+the C++ struct. pydantic finds unknown keys, missing keys and wrong types; ranges are left to the
+struct itself (see `scene_check`) and only shown in the JSON Schema.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, Protocol
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model
+
+from pbfluids import _core
+
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
+
+
+class ParameterStruct(Protocol):
+    """The class of a bound parameter struct."""
+
+    def __call__(self, **fields: Any) -> Any:
+        """Make one, or raise InvalidParameter with a line for each fault."""
+
+    def describe(self) -> list[dict[str, Any]]:
+        """Name, kind, unit, range, default and meaning of each field."""
+
+
+STRUCTS: dict[str, ParameterStruct] = {
+    "fluid": _core.FluidParams,
+    "solver": _core.SolverParams,
+    "camera": _core.Camera,
+    "render": _core.RenderParams,
+}
+
+# Defaults that follow from the rest of the scene; Scene works them out.
+DERIVED: dict[str, dict[str, str]] = {
+    "camera": {
+        "eye": "in front of the domain and above it, just far enough to see all of it.",
+        "target": "the middle of the domain.",
+    },
+    "render": {
+        "radius": "the fluid's spacing.",
+        "particle_volume": "the cube of the fluid's spacing.",
+        "tank_lower": "the domain's.",
+        "tank_upper": "the domain's.",
+    },
+}
+
+_KINDS: dict[str, Any] = {
+    "float": float,
+    "int": int,
+    "bool": bool,
+    "string": str,
+    "vec3": Annotated[list[float], Field(min_length=3, max_length=3)],
+}
+
+
+class Table(BaseModel):
+    """A table of the file. Strict: 1.5 is no integer, "1" no number, an unknown key a fault."""
+
+    model_config = ConfigDict(strict=True, extra="forbid")
+
+
+def _infinity(value: Any) -> Any:
+    """Take the words that stand for infinities in JSON, which has none."""
+    return float(value) if value in ("inf", "-inf") else value
+
+
+def _schema_of(field: dict[str, Any]) -> dict[str, Any]:
+    """Unit and range of a field in the words of JSON Schema; a vector's range is its items'."""
+    bounds: dict[str, Any] = {}
+    if math.isfinite(field["least"]):
+        bounds["exclusiveMinimum" if field["least_excluded"] else "minimum"] = field["least"]
+    if math.isfinite(field["most"]):
+        bounds["exclusiveMaximum" if field["most_excluded"] else "maximum"] = field["most"]
+    if field["kind"] == "vec3":
+        bounds = {"items": {"type": "number", **bounds}}
+    return {"unit": field["unit"], **bounds} if field["unit"] else bounds
+
+
+def _table_of(section: str) -> type[Table]:
+    """Make the table that takes the fields of a parameter struct."""
+    fields: dict[str, Any] = {}
+    for field in STRUCTS[section].describe():
+        name, doc, default = field["name"], field["doc"], field["default"]
+        choice = field["kind"] == "choice"
+        kind = Literal[tuple(field["choices"])] if choice else _KINDS[field["kind"]]
+        if isinstance(default, tuple):
+            default = list(default)
+        if name in DERIVED.get(section, {}):
+            default, doc = None, f"{doc} Default: {DERIVED[section][name]}"
+        if default is None:
+            kind = kind | None
+        if not field["finite"]:
+            kind = Annotated[kind, BeforeValidator(_infinity)]
+            default = str(default) if math.isinf(default) else default
+        fields[name] = (
+            kind,
+            Field(
+                default=default,
+                validate_default=not field["finite"],
+                description=doc,
+                json_schema_extra=_schema_of(field),
+            ),
+        )
+    return create_model(section.capitalize(), __base__=Table, **fields)
+
+
+class Domain(Table):
+    """The box that holds the fluid. A scene without this table is open space."""
+
+    lower: Vec3 = Field(description="Corner of the least coordinates [m].")
+    upper: Vec3 = Field(description="Corner of the greatest coordinates [m].")
+
+
+class Block(Table):
+    """A box of fluid at rest density."""
+
+    lower: Vec3 = Field(description="Corner of the least coordinates [m].")
+    upper: Vec3 = Field(description="Corner of the greatest coordinates [m].")
+    velocity: Vec3 = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
+
+
+class Ball(Table):
+    """A ball of fluid at rest density."""
+
+    center: Vec3 = Field(description="Middle of the ball [m].")
+    radius: Number = Field(gt=0, description="Radius of the ball [m].")
+    velocity: Vec3 = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
+
+
+# Every table below the top, by its key.
+TABLES: dict[str, type[Table]] = {
+    "domain": Domain,
+    "blocks": Block,
+    "balls": Ball,
+    **{section: _table_of(section) for section in STRUCTS},
+}
+
+
+class SceneTables(Table):
+    """A scene: what fluid is where, how it is solved, how it is seen. SI units."""
+
+    version: Literal[1] = Field(alias="schema", description="Version of this format.")
+    name: str = Field(pattern=r"^[A-Za-z0-9_-]+$", description="Letters, digits, _ and -.")
+    description: str = Field("", description="One line: what there is to see.")
+    duration: Number = Field(gt=0, description="Simulated time [s].")
+    frame_rate: Number = Field(gt=0, description="Frames per simulated second [1/s].")
+    domain: Domain | None = None
+    blocks: list[Block] = Field([], description="Boxes of fluid.")
+    balls: list[Ball] = Field([], description="Balls of fluid.")
+
+
+_SECTIONS: dict[str, Any] = {
+    section: (TABLES[section], Field(default_factory=TABLES[section])) for section in STRUCTS
+}
+SceneModel: type[SceneTables] = create_model("Scene", __base__=SceneTables, **_SECTIONS)
