@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# lint.sh [--fix] [TOOL…]: runs every tool, or those named: layers ruff mypy clang-format codespell clang-tidy.
+# lint.sh [--fix] [TOOL…]: runs every tool, or those named:
+#   layers ruff mypy clang-format lines codespell clang-tidy
 # Their versions stand in pyproject.toml, group "lint". --fix lets ruff and clang-format write.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -20,18 +21,28 @@ ruff_all() {
 
 mypy_all() { MYPYPATH=python mypy; }
 
+files() { git ls-files -z --cached --others --exclude-standard "$@"; }
+
 clang_format() {
   local mode=(--dry-run -Werror)
   $fix && mode=(-i)
-  git ls-files -z --cached --others --exclude-standard '*.hpp' '*.cpp' '*.inl' | xargs -0 clang-format "${mode[@]}"
+  files '*.hpp' '*.cpp' '*.inl' | xargs -0 clang-format "${mode[@]}"
 }
 
-spelling() { git ls-files -z | xargs -0 codespell; }
+# clang-format leaves comments alone, so that formulas keep their columns.
+long_lines() {
+  local found
+  found=$(files '*.hpp' '*.cpp' '*.inl' '*.vert' '*.frag' '*.glsl' |
+    LC_ALL=C.UTF-8 xargs -0 grep -nP '^.{101,}' || true)
+  [[ -z $found ]] || { echo "longer than 100 columns:" && echo "$found" && return 1; }
+}
+
+spelling() { files | xargs -0 codespell; }
 
 # Ninja knows which files an edit touches: only those are looked at again.
-clang_tidy() { cmake --preset tidy --log-level=WARNING >/dev/null && cmake --build --preset tidy; }
+clang_tidy() { cmake --preset tidy >/dev/null && cmake --build --preset tidy; }
 
-(($#)) || set -- layers ruff mypy clang-format codespell clang-tidy
+(($#)) || set -- layers ruff mypy clang-format lines codespell clang-tidy
 for tool in "$@"; do
   echo "lint: $tool"
   case $tool in
@@ -39,6 +50,7 @@ for tool in "$@"; do
     ruff) ruff_all ;;
     mypy) mypy_all ;;
     clang-format) clang_format ;;
+    lines) long_lines ;;
     codespell) spelling ;;
     clang-tidy) clang_tidy ;;
     *) echo "lint.sh: unknown tool '$tool'" >&2 && exit 2 ;;

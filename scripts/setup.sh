@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Makes a machine ready: `setup.sh GOAL` with GOAL one of demo, test, lint, bench, docs.
-# System packages are installed when root or sudo without a password allows it; otherwise the one line to run
-# is printed and the exit code is 1. Everything else lands in .venv. What has not changed is not done again.
+# System packages are installed when root or sudo without a password allows it; otherwise the one
+# line to run is printed and the exit code is 1. Everything else lands in .venv. What has not changed
+# is not done again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,18 +11,22 @@ venv=.venv
 stamps=$venv/stamps
 say() { printf '\033[1m%s\033[0m\n' "pbfluids: $*" >&2; }
 
-# ---- the system ------------------------------------------------------------------------------------------
-# Each need is tested by what it provides, not by the name of a package: any way of installing it will do.
-compiles() { printf '%s\n' "$1" | ${CXX:-c++} -std=c++20 -x c++ ${2:-} - -o /dev/null >/dev/null 2>&1; }
+# ---- the system ---------------------------------------------------------------------------------
+# Each need is tested by what it provides, not by the name of a package: any way of installing it
+# will do.
+compiles() {
+  printf '%s\n' "$1" | ${CXX:-c++} -std=c++20 -x c++ ${2:-} - -o /dev/null >/dev/null 2>&1
+}
 has_header() { compiles "#include <$1>" "-fsyntax-only ${2:-}"; }
 has_library() { [[ $(/sbin/ldconfig -p) == *"$1"* ]]; }
 has_file() { compgen -G "$1" >/dev/null; }
 
-has_python() { python3 -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))' 2>/dev/null; }
-has_python_headers() {
-  python3 -c 'import sysconfig, os, sys; p = sysconfig.get_path("include"); sys.exit(not os.path.exists(p + "/Python.h"))' \
-    2>/dev/null
+has_python() {
+  python3 -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))' 2>/dev/null
 }
+has_python_headers() {
+  [[ -f $(python3 -c 'import sysconfig; print(sysconfig.get_path("include"))')/Python.h ]]
+} 2>/dev/null
 has_compiler() { compiles 'int main() { return 0; }' -fopenmp; }
 # Mesa's software driver, or a vendor's own driver beside the loader.
 has_gl_driver() {
@@ -76,15 +81,17 @@ install_system_packages() {
   fi
 }
 
-# ---- .venv -----------------------------------------------------------------------------------------------
+# ---- .venv --------------------------------------------------------------------------------------
 # once NAME INPUTS… -- COMMAND…: runs the command unless the inputs are those of its last success.
 once() {
   local name=$1 inputs=() key
   shift
   while [[ $1 != -- ]]; do inputs+=("$1") && shift; done
   shift
-  key=$({ echo "$PWD" "$@" && python3 --version &&
-    find "${inputs[@]}" -type f ! -path '*/__pycache__/*' -print0 | sort -z | xargs -0 sha256sum; } | sha256sum)
+  key=$({
+    echo "$PWD" "$@" && python3 --version
+    find "${inputs[@]}" -type f ! -path '*/__pycache__/*' -print0 | sort -z | xargs -0 sha256sum
+  } | sha256sum)
   [[ -f $stamps/$name && $(<"$stamps/$name") == "$key" ]] && return
   "$@"
   echo "$key" >"$stamps/$name"
@@ -105,13 +112,13 @@ install_group() {
   pip install --group "$1"
 }
 
-# The build requirements stay in .venv and the objects in build/python, so a second build is an incremental one.
+# The build requirements stay in .venv and the objects in build/python: a second build is quick.
 install_package() {
   say "building and installing the package"
   pip install --no-build-isolation --config-settings=build-dir=build/python '.[cli,video]'
 }
 
-# ---- the goals -------------------------------------------------------------------------------------------
+# ---- the goals ----------------------------------------------------------------------------------
 install_system_packages
 create_venv
 package_sources=(CMakeLists.txt pyproject.toml cmake cpp glsl python scenes)

@@ -6,11 +6,12 @@ namespace pbf {
 
 /// The density constraint of Position Based Fluids [MM13], with volumes so that every term has a
 /// unit.
-///   C_i     = V Σ_j W(x*_i − x*_j) + V Σ_k W(x*_i − q_k) − 1                    Eq. 1, j includes
-///   i   [–] ∇_i C_i = V Σ_{j≠i} ∇W_ij + V Σ_k ∇W_ik ,   ∇_j C_i = −V ∇W_ij             Eq. 8 [1/m]
-///   λ_i     = −max(C_i, floor) / (Σ_k ‖∇_k C_i‖² + ε)                           Eq. 11 [m²] Δp_i
-///   = V Σ_{j≠i} (λ_i + λ_j + s_ij) ∇W_ij + V Σ_k (λ_i + s_ik) ∇W_ik     Eq. 14                [m]
-/// q_k are boundary particles, which do not move. ε = relaxation · D_ideal.
+///   C_i     = V Σ_j W(x*_i − x*_j) + V Σ_k W(x*_i − q_k) − 1                 Eq. 1   [–]
+///   ∇_i C_i = V Σ_{j≠i} ∇W_ij + V Σ_k ∇W_ik ,   ∇_j C_i = −V ∇W_ij           Eq. 8   [1/m]
+///   λ_i     = −max(C_i, floor) / (Σ_k ‖∇_k C_i‖² + ε)                        Eq. 11  [m²]
+///   Δp_i    = V Σ_{j≠i} (λ_i + λ_j + s_ij) ∇W_ij + V Σ_k (λ_i + s_ik) ∇W_ik  Eq. 14  [m]
+/// The sum over j in C_i includes i; q_k are boundary particles, which do not move;
+/// ε = relaxation · D_ideal.
 /// Departure from the paper: V takes the place of m/ρ0, and ε is scaled with the lattice
 /// (docs/notation.md).
 ///

@@ -44,8 +44,9 @@ inline constexpr Index kMostNeighbors = 8192;
 /// For each particle the others within h, in ascending order of their places in the sorted arrays.
 class NeighborList {
  public:
-  /// @param grid  built from the same positions and h   @param x  those positions in the grid's
-  /// order Throws SimulationFailed if a particle has more than kMostNeighbors.
+  /// @param grid  built from the same positions and h
+  /// @param x     those positions in the grid's order
+  /// Throws SimulationFailed if a particle has more than kMostNeighbors.
   void build(const CellGrid& grid, const PointsView& x, Real h, int threads);
 
   [[nodiscard]] std::span<const std::uint32_t> operator[](Index i) const { return rows_[i]; }
