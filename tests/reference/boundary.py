@@ -22,7 +22,7 @@ def boundary_lattice(fluid: Fluid, box: Box) -> Array:
     outside = d * (np.arange(layers) + 0.5)
     axes = []
     for lower, upper in zip(box.lower, box.upper, strict=True):
-        n = max(1, round((upper - lower) / d))
+        n = max(1, math.floor((upper - lower) / d + 0.5))
         inside = lower + (upper - lower) / n * (np.arange(n) + 0.5)
         axes.append(np.concatenate([lower - outside[::-1], inside, upper + outside]))
     points = np.array(list(itertools.product(*axes)))

@@ -12,6 +12,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
+def as_float32(value: Any) -> Array:
+    """The value that the library computes with: its parameters are float32, printed shortly."""
+    return np.asarray(value, dtype=np.float32).astype(np.float64)
+
+
 @dataclass(frozen=True)
 class Box:
     """The closed box lower <= x <= upper [m]."""
@@ -24,7 +29,7 @@ class Box:
         """The same box as the library's, None for open space."""
         if box is None:
             return None
-        return cls(np.asarray(box.lower, float), np.asarray(box.upper, float))
+        return cls(as_float32(box.lower), as_float32(box.upper))
 
 
 @dataclass(frozen=True)
@@ -44,8 +49,15 @@ class Fluid:
 
     @classmethod
     def of(cls, fluid: Any) -> Fluid:
-        """The same fluid as the library's FluidParams, whose numbers are already float32."""
-        return cls(**fluid.as_dict())
+        """The same fluid as the library's FluidParams."""
+        radius = fluid.support_radius
+        return cls(
+            spacing=float(as_float32(fluid.spacing)),
+            support_radius=None if radius is None else float(as_float32(radius)),
+            rest_density=float(as_float32(fluid.rest_density)),
+            gravity=tuple(as_float32(fluid.gravity).tolist()),
+            kernel=fluid.kernel,
+        )
 
 
 @dataclass(frozen=True)
@@ -64,4 +76,6 @@ class Solver:
     @classmethod
     def of(cls, solver: Any) -> Solver:
         """The same solver as the library's SolverParams."""
-        return cls(**{name: getattr(solver, name) for name in cls.__dataclass_fields__})
+        values = {name: getattr(solver, name) for name in cls.__dataclass_fields__}
+        whole = {"iterations", "tensile_exponent"}
+        return cls(**{k: v if k in whole else float(as_float32(v)) for k, v in values.items()})
