@@ -38,12 +38,13 @@ void solve_multipliers(const Neighborhood& near,
     parallel_for(x_star.cols(), solver.num_threads, [&](Index i) {
       const Vec3 x_i = x_star.col(i);
       Real sum_W = kernel.W(0);
-      Real sum_grad2 = 0;            // Σ_{j≠i} ‖∇W_ij‖²
-      Vec3 sum_grad = Vec3::Zero();  // Σ_{j≠i} ∇W_ij + Σ_k ∇W_ik
+      Real sum_grad2 = 0;            // Σ_{j≠i} ‖∇_j C_i‖²
+      Vec3 sum_grad = Vec3::Zero();  // ∇_i C_i
       for (const std::uint32_t j : near.fluid[i]) {
         const Vec3 r = x_i - x_star.col(j);
         const Real r2 = r.squaredNorm();
-        const Real s = kernel.grad_factor(r2);
+        // V first: ‖∇W‖² alone leaves float32's range for very fine and very coarse particles.
+        const Real s = disc.V * kernel.grad_factor(r2);
         sum_W += kernel.W(r2);
         sum_grad += s * r;
         sum_grad2 += s * s * r2;
@@ -52,11 +53,13 @@ void solve_multipliers(const Neighborhood& near,
         const Vec3 r = x_i - q;
         const Real r2 = r.squaredNorm();
         sum_W += kernel.W(r2);
-        sum_grad += kernel.grad_factor(r2) * r;
+        sum_grad += disc.V * kernel.grad_factor(r2) * r;
       }
       relative_density[i] = disc.V * sum_W;
       const Real C = std::max(relative_density[i] - 1, solver.constraint_floor);
-      lambda[i] = -C / (disc.V * disc.V * (sum_grad2 + sum_grad.squaredNorm()) + epsilon);
+      const Real denominator = sum_grad2 + sum_grad.squaredNorm() + epsilon;
+      // Without relaxation and without a gradient no correction could change C.
+      lambda[i] = denominator > 0 ? -C / denominator : Real(0);
     });
   });
 }
