@@ -15,7 +15,7 @@
 /// fresh array that owns its data.
 namespace pbf {
 
-using FloatArray = py::array_t<float, py::array::c_style>;
+using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 inline std::string shape_text(const py::array& array) {
   std::string text = "(";
