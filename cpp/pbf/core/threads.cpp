@@ -1,8 +1,9 @@
-#include "pbf/core/parallel.hpp"
+#include "pbf/core/threads.hpp"
 
 #include "pbf/core/error.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <omp.h>
 #include <pthread.h>
 #include <string>
