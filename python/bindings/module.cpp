@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, m) {
   pbf::register_fluid(m);
   pbf::register_stages(m);
   pbf::register_operators(m);
+  pbf::register_build(m);
 #ifdef PBF_WITH_RENDER
   pbf::register_render(m);
 #endif

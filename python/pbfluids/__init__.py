@@ -13,21 +13,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from pbfluids import _openmp as _openmp  # first: it decides how the extension is loaded
 from pbfluids import errors, operators
-from pbfluids._core import (
+from pbfluids._version import __version__
+from pbfluids.errors import FluidError
+from pbfluids.render import Camera, Renderer, RenderParams
+from pbfluids.simulation import (
     Box,
-    Camera,
     FluidParams,
-    RenderParams,
+    Simulation,
     SolverParams,
     StepReport,
     ball,
     block,
 )
-from pbfluids._version import __version__
-from pbfluids.errors import FluidError
-from pbfluids.render import Renderer
-from pbfluids.simulation import Simulation
 
 if TYPE_CHECKING:
     from pbfluids.diagnosis import doctor

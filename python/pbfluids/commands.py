@@ -13,7 +13,7 @@ from pbfluids import toml
 from pbfluids._version import __version__
 from pbfluids.errors import InvalidParameter
 from pbfluids.progress import Progress
-from pbfluids.scene import Frame, Scene
+from pbfluids.scene import Scene
 
 app = typer.Typer(
     help="Position Based Fluids: simulate, and render without a screen.",
@@ -71,7 +71,7 @@ def run(
     size: Annotated[str, typer.Option(metavar="WxH", help="Size of the pictures.")] = "1280x720",
     frames: Annotated[
         int | None,
-        typer.Option(metavar="N", help="How many, the initial state among them."),
+        typer.Option(metavar="N", min=1, help="How many, the initial state among them."),
     ] = None,
     threads: Annotated[
         int | None, typer.Option(metavar="N", help="0 for all; the result is the same.")
@@ -88,7 +88,6 @@ def run(
     if threads is not None:
         overrides["solver.num_threads"] = threads
     chosen = _scene(scene, overrides)
-    total = chosen.frame_count if frames is None else frames
     with Progress(chosen.name) as progress:
         result = simulate(
             chosen,
@@ -97,7 +96,7 @@ def run(
             render=render,
             size=_size(size),
             video_file=video,
-            progress=lambda frame: progress.update(frame.index + 1, total, _note(frame)),
+            progress=progress.update,
         )
     _print_written(result.path, len(result.frame_indices()), render, video)
 
@@ -194,13 +193,6 @@ def _value(text: str, option: str) -> Any:
         if re.fullmatch(r"[A-Za-z_][\w-]*", text):
             return text
         raise InvalidParameter(f"{option}: not TOML: {error}") from error
-
-
-def _note(frame: Frame) -> str:
-    particles = f"{len(frame.ids):,} particles"
-    if frame.report is None:
-        return particles
-    return f"{particles}, density error {100 * frame.report.mean_density_error:.2f} %"
 
 
 def _print_written(directory: Path, frames: int, images: bool, video: Path | None) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import struct
 import zlib
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -47,11 +46,11 @@ def encode(image: npt.NDArray[np.uint8]) -> bytes:
         [
             _chunk(b"IHDR", header),
             _chunk(b"sRGB", b"\0"),
-            _chunk(b"IDAT", zlib.compress(rows, 3)),
+            _chunk(b"IDAT", zlib.compress(rows.tobytes(), 3)),
             _chunk(b"IEND", b""),
         ]
     )
 
 
-def _chunk(kind: bytes, data: Any) -> bytes:
+def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

@@ -24,6 +24,7 @@ __all__ = ["draw", "simulate"]
 # A run that is killed loses the reports of this long [s]; its frames are all there.
 _RECORD_INTERVAL = 5.0
 
+Progress = Callable[[int, int, str], None]  # frames done, frames in all, a word on the last
 _Draw = Callable[[int, npt.NDArray[np.float32]], None]
 
 
@@ -35,7 +36,7 @@ def simulate(
     render: bool = True,
     size: tuple[int, int] = (1280, 720),
     video_file: str | Path | None = None,
-    progress: Callable[[Frame], None] | None = None,
+    progress: Progress | None = None,
 ) -> RunDirectory:
     """Simulate a scene and write particles and pictures of each frame.
 
@@ -54,7 +55,7 @@ def simulate(
     video_file
         An MP4 file to write as well.
     progress
-        Called after each frame.
+        Called after each frame with the number of frames done, of all, and a word on this one.
 
     Raises
     ------
@@ -70,7 +71,8 @@ def simulate(
     if video_file is not None and not render:
         raise InvalidParameter(f"video = {video_file}: there are no pictures without rendering")
     run = RunDirectory(directory)
-    frames = scene.frames(count)
+    total = scene.frame_count if count is None else count
+    frames = scene.frames(total)
     with ExitStack() as stack:
         draw_frame = None
         if render:
@@ -78,7 +80,7 @@ def simulate(
         run.prepare(particles=True)
         record = _new_record(scene, size if render else None)
         try:
-            _write_frames(run, record, frames, draw_frame, progress)
+            _write_frames(run, record, frames, total, draw_frame, progress)
             record["status"] = "complete"
         except BaseException as error:
             interrupted = isinstance(error, KeyboardInterrupt)
@@ -95,7 +97,7 @@ def draw(
     overrides: Mapping[str, Any] | None = None,
     size: tuple[int, int] | None = None,
     video_file: str | Path | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> RunDirectory:
     """Draw a finished run again, without simulating.
 
@@ -110,7 +112,7 @@ def draw(
     video_file
         An MP4 file to write as well.
     progress
-        Called after each frame with the number of frames done and of all.
+        Called after each frame with the number of frames done, of all, and a word on this one.
 
     Raises
     ------
@@ -134,7 +136,7 @@ def draw(
         for done, index in enumerate(indices, start=1):
             draw_frame(index, run.read_positions(index))
             if progress is not None:
-                progress(done, len(indices))
+                progress(done, len(indices), "")
     return run
 
 
@@ -169,8 +171,9 @@ def _write_frames(
     run: RunDirectory,
     record: dict[str, Any],
     frames: Iterator[Frame],
+    total: int,
     draw_frame: _Draw | None,
-    progress: Callable[[Frame], None] | None,
+    progress: Progress | None,
 ) -> None:
     last_record = -_RECORD_INTERVAL
     for frame in frames:
@@ -182,7 +185,7 @@ def _write_frames(
             run.write_record(record)
             last_record = time.monotonic()
         if progress is not None:
-            progress(frame)
+            progress(frame.index + 1, total, _note(frame))
 
 
 def _new_record(scene: Scene, size: tuple[int, int] | None) -> dict[str, Any]:
@@ -206,10 +209,25 @@ def _new_record(scene: Scene, size: tuple[int, int] | None) -> dict[str, Any]:
 
 
 def _frame_record(frame: Frame) -> dict[str, Any]:
+    report = frame.report
     return {
         "index": frame.index,
         "time": frame.time,
         "particles": len(frame.ids),
-        "state_hash": f"{frame.state_hash:016x}",
-        "report": frame.report.as_dict() if frame.report else None,
+        "state_hash": frame.state_hash,
+        "report": report
+        and {
+            "steps": report.steps,
+            "iterations": report.iterations,
+            "mean_density_error": report.mean_density_error,
+            "max_density_error": report.max_density_error,
+            "milliseconds": report.milliseconds,
+        },
     }
+
+
+def _note(frame: Frame) -> str:
+    particles = f"{len(frame.ids):,} particles"
+    if frame.report is None:
+        return particles
+    return f"{particles}, density error {100 * frame.report.mean_density_error:.2f} %"

@@ -38,7 +38,7 @@ class Frame:
     ids
         Shape (n,), int64.
     state_hash
-        Hash of the state's bits, equal for any number of threads.
+        16 hexadecimal digits, equal for equal bits and so for any number of threads.
     report
         What the time steps since the frame before took and reached; None in frame 0.
     """
@@ -48,7 +48,7 @@ class Frame:
     positions: npt.NDArray[np.float32]
     velocities: npt.NDArray[np.float32]
     ids: npt.NDArray[np.int64]
-    state_hash: int
+    state_hash: str
     report: _core.StepReport | None
 
 
@@ -154,7 +154,8 @@ class Scene:
 
     def as_dict(self) -> dict[str, Any]:
         """Give all values, but for those that follow from the rest of the scene."""
-        return _without_absent(self._tables)
+        result: dict[str, Any] = _without_absent(self._tables)
+        return result
 
     def to_toml(self) -> str:
         """Write the scene as a file with all values, which `load` takes back."""
@@ -241,7 +242,9 @@ class Scene:
             positions.append(_core.ball(ball["center"], ball["radius"], spacing))
             velocities.append(ball["velocity"])
         counts = [len(rows) for rows in positions]
-        return np.concatenate(positions), np.repeat(np.float32(velocities), counts, axis=0)
+        return np.concatenate(positions), np.repeat(
+            np.array(velocities, np.float32), counts, axis=0
+        )
 
     def simulation(self) -> Simulation:
         """Make a simulation of the scene, at its start."""
@@ -251,7 +254,7 @@ class Scene:
         return simulation
 
     def frames(
-        self, count: int | None = None, progress: Callable[[Frame], None] | None = None
+        self, count: int | None = None, progress: Callable[[int, int], None] | None = None
     ) -> Iterator[Frame]:
         """Simulate, and give the fluid at each frame.
 
@@ -260,7 +263,7 @@ class Scene:
         count
             Number of frames, frame 0 among them; `frame_count` if not given.
         progress
-            Called with each frame before it is given.
+            Called before each frame is given with the number of frames done and of all.
 
         Yields
         ------
@@ -278,7 +281,9 @@ class Scene:
             raise InvalidParameter(f"count = {count}: must be >= 1 frame")
         return self._simulated(self.frame_count if count is None else count, progress)
 
-    def _simulated(self, count: int, progress: Callable[[Frame], None] | None) -> Iterator[Frame]:
+    def _simulated(
+        self, count: int, progress: Callable[[int, int], None] | None
+    ) -> Iterator[Frame]:
         simulation = self.simulation()
         report = None
         for index in range(count):
@@ -294,7 +299,7 @@ class Scene:
                 report,
             )
             if progress is not None:
-                progress(frame)
+                progress(index + 1, count)
             yield frame
 
     def _given(self, section: str) -> dict[str, Any]:

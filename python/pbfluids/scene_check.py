@@ -106,7 +106,8 @@ def _build(section: str, data: Mapping[str, Any], wrong: set[Path]) -> tuple[Any
     table = data.get(section, {})
     if not isinstance(table, Mapping):
         return None, []
-    values = {key: table[key] for key in table if not _is_wrong((section, key), wrong)}
+    sound = {key: table[key] for key in table if not _is_wrong((section, key), wrong)}
+    values = TABLES[section].model_validate(sound).model_dump(exclude_unset=True)
     try:
         return STRUCTS[section](**values), []
     except InvalidParameter as error:

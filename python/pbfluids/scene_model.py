@@ -22,6 +22,8 @@ Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
 class ParameterStruct(Protocol):
     """The class of a bound parameter struct."""
 
+    __name__: str
+
     def __call__(self, **fields: Any) -> Any:
         """Make one, or raise InvalidParameter with a line for each fault."""
 

@@ -1,0 +1,56 @@
+"""What the tests of the Python face share."""
+
+from __future__ import annotations
+
+import copy
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pbfluids import toml
+
+TINY: dict[str, Any] = {
+    "schema": 1,
+    "name": "tiny",
+    "duration": 0.1,
+    "frame_rate": 20,
+    "fluid": {"spacing": 0.05},
+    "solver": {"iterations": 2, "substeps": 1},
+    "domain": {"lower": [0.0, 0.0, 0.0], "upper": [0.4, 0.4, 0.2]},
+    "blocks": [{"lower": [0.0, 0.0, 0.0], "upper": [0.2, 0.2, 0.2]}],
+}
+
+
+@pytest.fixture
+def tiny() -> dict[str, Any]:
+    """A scene of 64 particles and 3 frames, to be changed at will."""
+    return copy.deepcopy(TINY)
+
+
+@pytest.fixture
+def tiny_file(tmp_path: Path) -> Path:
+    """The same, as a file."""
+    path = tmp_path / "tiny.toml"
+    path.write_text(toml.dumps(TINY), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def outside(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Run Python code in a process of its own, outside the checkout."""
+
+    def run(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, "-c", code],
+            cwd=tmp_path,
+            env=environment or None,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    return run
