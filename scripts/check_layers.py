@@ -27,8 +27,8 @@ MAY_INCLUDE: dict[str, set[str]] = {
 WORDS: list[tuple[str, str, str]] = [
     (
         r"#\s*pragma\s+omp|<omp\.h>|\bomp_\w+\(",
-        r"core/parallel\.[hc]pp",
-        "threads start only in core/parallel",
+        r"core/(parallel|threads)\.[hc]pp",
+        "OpenMP stays in core/parallel and core/threads",
     ),
     (
         r"\bgl[A-Z]\w+|\bGL_[A-Z]\w+|\begl[A-Z]\w+|\bEGL_?[A-Z]\w+",

@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 goal=${1:?usage: scripts/setup.sh demo|test|lint|bench|docs}
 venv=.venv
 stamps=$venv/stamps
-say() { printf '\033[1m%s\033[0m\n' "pbfluids: $*" >&2; }
+say() { echo "pbfluids: $*" >&2; }
 
 # ---- the system ---------------------------------------------------------------------------------
 # Each need is tested by what it provides, not by the name of a package: any way of installing it

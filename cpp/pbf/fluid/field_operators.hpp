@@ -35,6 +35,9 @@ struct FieldSample {
     }
   }
 };
+// Clang before 17 does not deduce the argument of an aggregate by itself.
+template <class Kernel>
+FieldSample(PointsView, const NeighborList&, const Kernel&, Real) -> FieldSample<Kernel>;
 
 template <class Kernel>
 Vec3 gradient_at(const FieldSample<Kernel>& s, Index i, const ScalarsView& A) {

@@ -22,12 +22,12 @@ class ParticleFields {
   ParticleFields(const PointsView& positions, Real h, const Options& options);
 
   [[nodiscard]] Scalars relative_density() const;  ///< V Σ_j W_ij, j includes i     [–]
-  [[nodiscard]] Points gradient(const ScalarsView& A) const;  ///< [A/m]
+  [[nodiscard]] Points gradient(const ScalarsView& values) const;  ///< [A/m]
   [[nodiscard]] Eigen::Matrix<Real, 9, Eigen::Dynamic> jacobian(
-      const PointsView& a) const;                               ///< row-major 3×3 [a/m]
-  [[nodiscard]] Scalars divergence(const PointsView& a) const;  ///< [a/m]
-  [[nodiscard]] Points curl(const PointsView& a) const;         ///< [a/m]
-  [[nodiscard]] Scalars laplacian(const ScalarsView& A) const;  ///< [A/m²]; not corrected
+      const PointsView& values) const;                               ///< row-major 3×3 [a/m]
+  [[nodiscard]] Scalars divergence(const PointsView& values) const;  ///< [a/m]
+  [[nodiscard]] Points curl(const PointsView& values) const;         ///< [a/m]
+  [[nodiscard]] Scalars laplacian(const ScalarsView& values) const;  ///< [A/m²]; not corrected
   [[nodiscard]] Index size() const { return x_.cols(); }
 
  private:

@@ -14,6 +14,6 @@ struct Calibration {
 
 /// Sums over the lattice points within h of one of them. Throws InvalidParameter unless 0 < spacing
 /// < h.
-Calibration calibrate(KernelChoice kernel, double spacing, double h);
+Calibration calibrate(KernelChoice choice, double spacing, double h);
 
 }  // namespace pbf
