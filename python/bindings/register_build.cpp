@@ -1,4 +1,5 @@
-#include "pbf/core/parallel.hpp"
+#include "pbf/core/threads.hpp"
+#include "pbf/core/types.hpp"
 
 #include <pybind11/stl.h>
 
