@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,6 +54,6 @@ def find_neighbors(x_star: Array, fluid: Fluid, box: Box | None = None) -> Neigh
 
 
 def _sum_by(i: Indices, terms: Array, count: int) -> Array:
-    total = np.zeros((count, *terms.shape[1:]))
-    np.add.at(total, i, terms)
-    return total
+    columns = terms.reshape(len(i), math.prod(terms.shape[1:])).T
+    sums = [np.bincount(i, weights=column, minlength=count) for column in columns]
+    return np.stack(sums, axis=1).reshape(count, *terms.shape[1:])
