@@ -6,6 +6,14 @@
 namespace pbf {
 namespace {
 
+KernelChoice kernel_named(const std::string& name) {
+  try {
+    return PythonForm<KernelChoice>::in(name);
+  } catch (const InvalidParameter& e) {
+    throw InvalidParameter(std::string("kernel = ") + e.what());
+  }
+}
+
 ParticleFields make_fields(const py::object& positions,
                            Real support_radius,
                            Real volume,
@@ -13,7 +21,7 @@ ParticleFields make_fields(const py::object& positions,
                            bool corrected,
                            int num_threads) {
   const FloatArray x = points_array(positions, "positions");
-  const ParticleFields::Options options{.kernel = PythonForm<KernelChoice>::in(kernel),
+  const ParticleFields::Options options{.kernel = kernel_named(kernel),
                                         .volume = volume,
                                         .corrected = corrected,
                                         .num_threads = num_threads};
