@@ -1,0 +1,165 @@
+"""Bad input is a typed error that names field, value and rule, and changes nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pbfluids as pbf
+from pbfluids.errors import FluidError, InvalidParameter, WrongType
+
+
+@pytest.fixture
+def sim():
+    simulation = pbf.Simulation(
+        pbf.FluidParams(spacing=0.05), domain=pbf.Box((0, 0, 0), (0.4, 0.4, 0.4))
+    )
+    simulation.add_particles(pbf.block((0, 0, 0), (0.2, 0.2, 0.2), spacing=0.05))
+    simulation.step(0.005)
+    return simulation
+
+
+def rejects(sim, error, message, call):
+    before = sim.state_hash(), len(sim), sim.time, sim.step_count
+    with pytest.raises(error, match=message) as caught:
+        call()
+    assert isinstance(caught.value, FluidError)
+    assert (sim.state_hash(), len(sim), sim.time, sim.step_count) == before
+
+
+@pytest.mark.parametrize(
+    ("positions", "error", "message"),
+    [
+        (np.zeros((3, 4)), InvalidParameter, r"positions: expected shape \(n, 3\).*got \(3, 4\)"),
+        (np.zeros(3), InvalidParameter, r"positions: expected shape \(n, 3\).*got \(3,\)"),
+        (np.zeros((1, 1, 3)), InvalidParameter, r"positions: expected shape.*got \(1, 1, 3\)"),
+        ([[0.1, np.nan, 0.1]], InvalidParameter, "positions: .*not finite.*row 0"),
+        ([[0.1] * 3, [np.inf] * 3], InvalidParameter, "positions: .*not finite.*row 1"),
+        ([[1e300, 0.1, 0.1]], InvalidParameter, "positions: .*too large for float32"),
+        ([["a", "b", "c"]], WrongType, "positions: expected an array of real numbers"),
+        ([[1j, 0, 0]], WrongType, "positions: .*complex128"),
+        ([[True, False, True]], WrongType, "positions: .*bool"),
+        (None, WrongType, "positions: expected an array"),
+        ([[0.1, 0.1, 0.41]], InvalidParameter, "positions"),
+    ],
+)
+def test_positions_that_are_none_are_rejected(sim, positions, error, message):
+    rejects(sim, error, message, lambda: sim.add_particles(positions))
+
+
+@pytest.mark.parametrize(
+    ("velocities", "message"),
+    [
+        (np.zeros((2, 3)), "velocities: 2 rows, but positions has 1"),
+        (np.zeros((1, 2)), r"velocities: expected shape \(n, 3\)"),
+        ([[0, np.nan, 0]], "velocities: .*not finite"),
+    ],
+)
+def test_velocities_that_do_not_fit_are_rejected(sim, velocities, message):
+    rejects(
+        sim, InvalidParameter, message, lambda: sim.add_particles([[0.3, 0.3, 0.3]], velocities)
+    )
+
+
+@pytest.mark.parametrize("dt", [0.0, -0.01, np.nan, np.inf, -np.inf])
+def test_a_time_step_that_is_not_positive_is_rejected(sim, dt):
+    rejects(sim, InvalidParameter, "dt = .*must be", lambda: sim.step(dt))
+
+
+@pytest.mark.parametrize("seconds", [0.0, -0.01, np.nan, np.inf])
+def test_a_frame_that_is_not_positive_is_rejected(sim, seconds):
+    rejects(sim, InvalidParameter, "seconds = .*must be", lambda: sim.advance(seconds))
+
+
+@pytest.mark.parametrize("dt", ["0.1", None, [0.1]])
+def test_a_time_step_that_is_no_number_is_rejected(sim, dt):
+    before = sim.state_hash()
+    with pytest.raises(TypeError):
+        sim.step(dt)
+    assert sim.state_hash() == before
+
+
+PARAMETERS = [pbf.FluidParams, pbf.SolverParams, pbf.RenderParams, pbf.Camera, pbf.Box]
+
+
+def limits():
+    """Each number of each struct with a value just outside each of its limits."""
+    for struct in PARAMETERS:
+        for field in struct.describe():
+            if field["kind"] not in ("float", "int", "vec3"):
+                continue
+            outside = [np.nan] if field["kind"] != "int" else []
+            if np.isfinite(field["least"]):
+                below = field["least"] - 1 - 1e-3 * abs(field["least"])
+                outside.append(field["least"] if field["least_excluded"] else below)
+            if np.isfinite(field["most"]):
+                above = field["most"] + 1 + 1e-3 * abs(field["most"])
+                outside.append(field["most"] if field["most_excluded"] else above)
+            if field["finite"] and field["kind"] != "int":
+                outside += [np.inf, -np.inf]
+            for value in outside:
+                number = int(value) if field["kind"] == "int" else value
+                given = (number,) * 3 if field["kind"] == "vec3" else number
+                yield pytest.param(struct, field["name"], given, id=f"{field['name']}={value:g}")
+
+
+@pytest.mark.parametrize(("struct", "name", "value"), list(limits()))
+def test_a_parameter_outside_its_range_is_named(struct, name, value):
+    with pytest.raises(InvalidParameter, match=rf"^{struct.__name__}\.{name} = .*: must be"):
+        struct(**{name: value})
+
+
+@pytest.mark.parametrize("struct", PARAMETERS)
+def test_a_parameter_of_another_type_is_named(struct):
+    for field in struct.describe():
+        with pytest.raises(WrongType, match=rf"^{struct.__name__}\.{field['name']} = "):
+            struct(**{field["name"]: object()})
+
+
+@pytest.mark.parametrize("struct", PARAMETERS)
+def test_an_unknown_parameter_comes_with_those_there_are(struct):
+    with pytest.raises(WrongType, match='has no parameter "spacingg"; it has '):
+        struct(spacingg=1)
+
+
+def test_a_rejected_assignment_leaves_the_parameter_as_it_was():
+    params = pbf.SolverParams()
+    with pytest.raises(InvalidParameter, match="iterations = 0"):
+        params.iterations = 0
+    assert params == pbf.SolverParams()
+
+
+def test_all_faults_of_a_struct_are_listed_at_once():
+    with pytest.raises(InvalidParameter) as caught:
+        pbf.SolverParams(iterations=0, relaxation=-1.0, num_threads=1000)
+    assert [line.split(" =")[0] for line in str(caught.value).splitlines()] == [
+        "SolverParams.iterations",
+        "SolverParams.relaxation",
+        "SolverParams.num_threads",
+    ]
+
+
+def test_a_thread_count_that_would_end_the_process_is_rejected():
+    with pytest.raises(InvalidParameter, match="num_threads = 100000: must be"):
+        pbf.SolverParams(num_threads=100_000)
+
+
+def test_a_box_inside_out_is_rejected():
+    with pytest.raises(InvalidParameter, match=r"Box\.upper = .*greater than lower"):
+        pbf.Box((0, 0, 0), (1, -1, 1))
+
+
+def test_a_domain_thinner_than_the_spacing_is_rejected():
+    with pytest.raises(InvalidParameter):
+        pbf.Simulation(pbf.FluidParams(spacing=0.1), domain=pbf.Box((0, 0, 0), (1, 1, 0.05)))
+
+
+@pytest.mark.parametrize("spacing", [0.0, -1.0, np.nan])
+def test_a_block_needs_a_positive_spacing(spacing):
+    with pytest.raises(InvalidParameter, match="spacing"):
+        pbf.block((0, 0, 0), (1, 1, 1), spacing=spacing)
+
+
+def test_a_block_of_more_particles_than_memory_holds_is_an_error_not_a_crash():
+    with pytest.raises(FluidError):
+        pbf.block((0, 0, 0), (1, 1, 1), spacing=1e-6)
