@@ -1,6 +1,6 @@
-"""Write python/pbfluids/_core.pyi from the built extension: ``python scripts/update_stubs.py``.
+"""Write the stubs of the extension: ``python scripts/update_stubs.py``.
 
-The stub is committed, so that building needs no generator; a test fails when it is not what this
+They are committed, so that building needs no generator; a test fails when they are not what this
 writes.
 """
 
@@ -12,20 +12,18 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-STUB = ROOT / "python" / "pbfluids" / "_core.pyi"
+STUBS = ROOT / "python" / "pbfluids" / "_core"
 
 
-def generate() -> str:
-    """Give the stub of the extension that is installed."""
+def generate() -> dict[str, str]:
+    """Give the stubs of the extension that is installed, by file name."""
     with tempfile.TemporaryDirectory() as directory:
         _run("pybind11_stubgen", "--exit-code", "--output-dir", directory, "pbfluids._core")
-        stub = Path(directory) / "pbfluids" / "_core.pyi"
-        config = str(ROOT / "pyproject.toml")
-        _run(
-            "ruff", "check", "--quiet", "--fix-only", "--select=I,F401", f"--config={config}", stub
-        )
-        _run("ruff", "format", "--quiet", f"--config={config}", stub)
-        return stub.read_text(encoding="utf-8")
+        files = sorted(Path(directory).rglob("*.pyi"))
+        config = f"--config={ROOT / 'pyproject.toml'}"
+        _run("ruff", "check", "--quiet", "--fix-only", "--select=I", config, *files)
+        _run("ruff", "format", "--quiet", config, *files)
+        return {file.name: file.read_text(encoding="utf-8") for file in files}
 
 
 def _run(module: str, *arguments: str | Path) -> None:
@@ -39,5 +37,7 @@ def _run(module: str, *arguments: str | Path) -> None:
 
 
 if __name__ == "__main__":
-    STUB.write_text(generate(), encoding="utf-8")
-    print(STUB)
+    STUBS.mkdir(exist_ok=True)
+    for name, text in generate().items():
+        (STUBS / name).write_text(text, encoding="utf-8")
+        print(STUBS / name)

@@ -9,7 +9,7 @@ struct itself (see `scene_check`) and only shown in the JSON Schema.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, Protocol
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model
 
@@ -19,17 +19,12 @@ Number = Annotated[float, Field(allow_inf_nan=False)]
 Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
-class ParameterStruct(Protocol):
-    """The class of a bound parameter struct."""
-
-    __name__: str
-
-    def __call__(self, **fields: Any) -> Any:
-        """Make one, or raise InvalidParameter with a line for each fault."""
-
-    def describe(self) -> list[dict[str, Any]]:
-        """Name, kind, unit, range, default and meaning of each field."""
-
+ParameterStruct = (
+    type[_core.FluidParams]
+    | type[_core.SolverParams]
+    | type[_core.Camera]
+    | type[_core.RenderParams]
+)
 
 STRUCTS: dict[str, ParameterStruct] = {
     "fluid": _core.FluidParams,
