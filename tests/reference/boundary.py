@@ -33,3 +33,11 @@ def boundary_lattice(fluid: Fluid, box: Box) -> Array:
 def project(x: Array, box: Box | None) -> Array:
     """The point of the closed box nearest to x: collision detection and response in one."""
     return x.copy() if box is None else np.clip(x, box.lower, box.upper)
+
+
+def centers(fluid: Fluid, box: Box | None) -> Box | None:
+    """Where particle centers may be: the box less the particle's radius d/2 on every side."""
+    if box is None:
+        return None
+    radius = fluid.spacing / 2.0
+    return Box(np.asarray(box.lower) + radius, np.asarray(box.upper) - radius)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.boundary import project
+from reference.boundary import centers, project
 from reference.calibration import calibration
 from reference.kernels import kernel
 from reference.neighbors import Neighbors, find_neighbors
@@ -32,7 +32,7 @@ class State:
 def predict(x: Array, v: Array, fluid: Fluid, box: Box | None, dt: float) -> tuple[Array, Array]:
     """v <- v + dt g;  x* <- project(x + dt v)."""
     v = v + dt * np.asarray(fluid.gravity)
-    return v, project(x + dt * v, box)
+    return v, project(x + dt * v, centers(fluid, box))
 
 
 def multipliers(
@@ -130,7 +130,8 @@ def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float)
     near = find_neighbors(x_star, fluid, box)
     for _ in range(solver.iterations):
         densities, lambdas = multipliers(x_star, near, fluid, solver)
-        x_star = project(x_star + corrections(x_star, lambdas, near, fluid, solver), box)
+        dp = corrections(x_star, lambdas, near, fluid, solver)
+        x_star = project(x_star + dp, centers(fluid, box))
     v = (x_star - state.x) / dt
     if solver.vorticity > 0.0:
         omega = vorticity(x_star, v, near, fluid)

@@ -105,7 +105,7 @@ void apply_corrections(const Discretization& disc,
                        Points& x_star) {
   parallel_for(x_star.cols(), threads, [&](Index i) {
     const Vec3 moved = x_star.col(i) + dp.col(i);
-    x_star.col(i) = disc.domain ? disc.domain->project(moved) : moved;
+    x_star.col(i) = disc.project(moved);
   });
 }
 

@@ -24,6 +24,8 @@ Discretization::Discretization(const FluidParams& params, const std::optional<Bo
                            " m must be at least the spacing (" + to_text(params.spacing) +
                            " m) on every axis");
   }
+  const Vec3 radius = Vec3::Constant(params.spacing / 2);
+  centers = Box{.lower = domain->lower + radius, .upper = domain->upper - radius};
   walls.emplace(*domain, params.spacing, h);
 }
 

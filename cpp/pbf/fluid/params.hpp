@@ -46,7 +46,7 @@ struct SolverParams {
   int substeps = 4;
   Real relaxation = 0.01F;
   Real constraint_floor = 0.0F;
-  Real tensile_strength = 0.0F;
+  Real tensile_strength = 0.02F;
   Real tensile_distance = 0.2F;
   int tensile_exponent = 4;
   Real vorticity = 0.0F;

@@ -14,7 +14,7 @@ void predict(const PointsView& x,
   const Vec3 dv = dt * disc.fluid.gravity;
   parallel_for(x.cols(), threads, [&](Index i) {
     const Vec3 moved = x.col(i) + dt * (v.col(i) + dv);
-    x_star.col(i) = disc.domain ? disc.domain->project(moved) : moved;
+    x_star.col(i) = disc.project(moved);
   });
 }
 

@@ -90,7 +90,7 @@ Ids Simulation::add_particles(const PointsView& positions,
   }
 
   const Index before = size();
-  const Ids new_ids = consecutive(before, added);
+  Ids new_ids = consecutive(before, added);
   State state;
   state.x.resize(3, before + added);
   state.v.setZero(3, before + added);
