@@ -6,7 +6,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-goal=${1:?usage: scripts/setup.sh demo|test|lint|bench|docs}
+goal=${1:-}
+case $goal in demo | test | lint | bench | docs) ;; *)
+  echo "usage: scripts/setup.sh demo|test|lint|bench|docs" >&2
+  exit 2
+  ;;
+esac
 venv=.venv
 stamps=$venv/stamps
 say() { echo "pbfluids: $*" >&2; }
@@ -17,7 +22,7 @@ say() { echo "pbfluids: $*" >&2; }
 compiles() {
   printf '%s\n' "$1" | ${CXX:-c++} -std=c++20 -x c++ ${2:-} - -o /dev/null >/dev/null 2>&1
 }
-has_header() { compiles "#include <$1>" "-fsyntax-only ${2:-}"; }
+has_header() { compiles "#include <$1>" "-E ${2:-}"; }
 has_library() { [[ $(/sbin/ldconfig -p) == *"$1"* ]]; }
 has_file() { compgen -G "$1" >/dev/null; }
 
@@ -124,10 +129,7 @@ create_venv
 package_sources=(CMakeLists.txt pyproject.toml cmake cpp glsl python scenes)
 once group-build pyproject.toml -- install_group build
 case $goal in
-  demo) ;;
   test) once group-test pyproject.toml -- install_group test ;;
   lint) once group-lint pyproject.toml -- install_group lint ;;
-  bench | docs) ;;
-  *) echo "setup.sh: unknown goal '$goal'" >&2 && exit 2 ;;
 esac
 once package "${package_sources[@]}" -- install_package
