@@ -44,6 +44,7 @@ class Replacement:
 
 
 def write(path: Path, data: bytes) -> None:
-    """Write a whole file at once."""
+    """Write a whole file at once, and the directories above it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     with Replacement(path) as file:
         file.beside.write_bytes(data)

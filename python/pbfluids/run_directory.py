@@ -37,15 +37,14 @@ class RunDirectory:
         self.record_file = self.path / "run.json"
 
     def prepare(self, *, particles: bool) -> None:
-        """Make the directories, and remove an earlier run's images and, if asked, particles.
+        """Make the directory, and remove an earlier run's images and, if asked, particles.
 
         Without this the frames of a shorter run would mix with those of a longer one before it.
         """
         kinds = ["images/*.png", *(["particles/*.npz", "run.json"] if particles else [])]
-        for old in (file for kind in kinds for file in self.path.glob(kind)):
+        self.path.mkdir(parents=True, exist_ok=True)
+        for old in [file for kind in kinds for file in self.path.glob(kind)]:
             old.unlink()
-        for name in ("particles", "images"):
-            (self.path / name).mkdir(parents=True, exist_ok=True)
 
     def write_particles(self, frame: Frame) -> str:
         """Write the fluid of a frame; give the file's name inside the directory."""

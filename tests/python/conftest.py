@@ -10,19 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.scenes import TINY
 
 from pbfluids import toml
-
-TINY: dict[str, Any] = {
-    "schema": 1,
-    "name": "tiny",
-    "duration": 0.1,
-    "frame_rate": 20,
-    "fluid": {"spacing": 0.05},
-    "solver": {"iterations": 2, "substeps": 1},
-    "domain": {"lower": [0.0, 0.0, 0.0], "upper": [0.4, 0.4, 0.2]},
-    "blocks": [{"lower": [0.0, 0.0, 0.0], "upper": [0.2, 0.2, 0.2]}],
-}
 
 
 @pytest.fixture

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+import copy
 import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from support.scenes import TINY
 
 import pbfluids as pbf
 from pbfluids import toml
@@ -359,3 +364,43 @@ def test_blocks_and_balls_start_with_their_velocities(tiny):
 
 def test_every_table_of_the_file_is_closed_to_unknown_keys():
     assert all(table.model_config["extra"] == "forbid" for table in TABLES.values())
+
+
+def test_any_text_survives_toml(tiny):
+    tiny["description"] = 'quotes " and \\ and é\t\x7f\x01\U0001f30a'
+    scene = pbf.Scene(tiny)
+    assert pbf.Scene(toml.loads(scene.to_toml())).description == tiny["description"]
+
+
+PATHS = [
+    *(("fluid",), ("solver",), ("domain",), ("blocks",), ("balls",), ("camera",), ("render",)),
+    *(("fluid", "spacing"), ("fluid", "gravity"), ("solver", "iterations"), ("domain", "upper")),
+    *(("blocks", 0), ("blocks", 0, "lower"), ("blocks", 0, "upper", 1), ("name",), ("duration",)),
+    *(("schema",), ("frame_rate",), ("camera", "eye"), ("render", "radius")),
+]
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.dictionaries(st.sampled_from(["lower", "x"]), inner)
+    ),
+    max_leaves=6,
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.tuples(st.sampled_from(PATHS), VALUES), min_size=1, max_size=3))
+def test_whatever_a_file_holds_it_is_a_scene_or_a_scene_error(changes):
+    data = copy.deepcopy({**TINY, "balls": [], "camera": {}, "render": {}})
+    for path, value in changes:
+        table = data
+        for step in path[:-1]:
+            try:
+                table = table[step]
+            except (KeyError, IndexError, TypeError):
+                break
+        if isinstance(table, dict):
+            table[path[-1]] = value
+        elif isinstance(table, list) and len(table) > 1:
+            table[1] = value
+    with contextlib.suppress(SceneError):
+        assert pbf.Scene(data).frame_count >= 1
