@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import difflib
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -17,7 +16,8 @@ import numpy.typing as npt
 from pbfluids import _core, toml
 from pbfluids.errors import InvalidParameter, SceneError
 from pbfluids.scene_check import check
-from pbfluids.scene_model import STRUCTS, TABLES, SceneModel
+from pbfluids.scene_data import changed, plain, without_absent
+from pbfluids.scene_model import SceneModel
 from pbfluids.simulation import Simulation
 
 __all__ = ["Frame", "Scene"]
@@ -69,12 +69,12 @@ class Scene:
     """
 
     def __init__(self, data: Mapping[str, Any], source: str = "scene") -> None:
-        plain = _plain(data)
-        model, faults = check(plain)
+        tables = plain(data)
+        model, faults = check(tables)
         if faults or model is None:
             raise SceneError(f"{source}: {_count(faults)}\n  " + "\n  ".join(faults))
         self._source = source
-        self._data = plain
+        self._data = tables
         self._tables: dict[str, Any] = model.model_dump(by_alias=True)
 
     @classmethod
@@ -98,7 +98,7 @@ class Scene:
         except (OSError, UnicodeDecodeError) as error:
             reason = getattr(error, "strerror", None) or error
             raise SceneError(f"{path}: cannot be read: {reason}") from error
-        return cls(_changed(_parsed(text, str(path)), overrides), str(path))
+        return cls(changed(_parsed(text, str(path)), overrides), str(path))
 
     @classmethod
     def builtin(cls, name: str, **overrides: Any) -> Scene:
@@ -121,7 +121,7 @@ class Scene:
             hint = f'did you mean "{close[0]}"?' if close else "known: " + ", ".join(cls.names())
             raise SceneError(f'no built-in scene is called "{name}", {hint}')
         text = (_builtin_scenes() / f"{name}.toml").read_text(encoding="utf-8")
-        return cls(_changed(_parsed(text, name), overrides), name)
+        return cls(changed(_parsed(text, name), overrides), name)
 
     @staticmethod
     def names() -> list[str]:
@@ -150,11 +150,11 @@ class Scene:
         SceneError
             With a line for every fault that the changes make.
         """
-        return Scene(_changed(self._data, overrides), self._source)
+        return Scene(changed(self._data, overrides), self._source)
 
     def as_dict(self) -> dict[str, Any]:
         """Give all values, but for those that follow from the rest of the scene."""
-        result: dict[str, Any] = _without_absent(self._tables)
+        result: dict[str, Any] = without_absent(self._tables)
         return result
 
     def to_toml(self) -> str:
@@ -326,42 +326,3 @@ def _parsed(text: str, source: str) -> dict[str, Any]:
 
 def _count(faults: list[str]) -> str:
     return "1 fault" if len(faults) == 1 else f"{len(faults)} faults"
-
-
-def _plain(value: Any) -> Any:
-    """Turn what Python code likes to give, tuples and arrays, into what TOML gives."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return value.tolist()
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return value
-
-
-def _changed(data: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
-    result: dict[str, Any] = copy.deepcopy(dict(data))
-    for key, value in overrides.items():
-        *tables, last = key.split(".")
-        if not tables and last not in SceneModel.model_fields:
-            owners = [name for name in STRUCTS if last in TABLES[name].model_fields]
-            tables = owners if len(owners) == 1 else []
-        target = result
-        for table in tables:
-            inner = target.setdefault(table, {})
-            if not isinstance(inner, dict):
-                raise SceneError(f"{key}: {table} is no table")
-            target = inner
-        if isinstance(value, Mapping) and isinstance(target.get(last), dict):
-            target[last] = {**target[last], **value}
-        else:
-            target[last] = value
-    return result
-
-
-def _without_absent(value: Any) -> Any:
-    """Leave out None and empty lists: TOML has no word for the one and no need for the other."""
-    if isinstance(value, dict):
-        items = ((key, _without_absent(item)) for key, item in value.items())
-        return {key: item for key, item in items if item is not None and item != []}
-    return [_without_absent(item) for item in value] if isinstance(value, list) else value
