@@ -10,7 +10,7 @@ namespace pbf {
 /// What the fluid is. SI units.
 struct FluidParams {
   Real spacing = 0.02F;
-  std::optional<Real> support_radius;
+  std::optional<Real> support_radius = std::nullopt;
   Real rest_density = 1000.0F;
   Vec3 gravity{0.0F, -9.81F, 0.0F};
   KernelChoice kernel = KernelChoice::poly6_spiky;
