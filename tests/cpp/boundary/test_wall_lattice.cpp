@@ -64,20 +64,26 @@ TEST_CASE("wall lattice: a full box is at rest density up to walls, edges and co
   }
 }
 
-TEST_CASE(
-    "wall lattice: a box that no whole number of particles fits is still closed on all sides") {
+TEST_CASE("wall lattice: a box that no whole number of particles fits is closed on all sides") {
   const Box box{.lower = {0, 0, 0}, .upper = {0.33F, 0.98F, 0.147F}};
   const WallLattice lattice(box, kSpacing, kH);
-  for (const Real share : {0.0F, 0.1F, 0.5F, 0.9F, 1.0F}) {
-    const Vec3 x = box.lower + share * (box.upper - box.lower);
-    Vec3 furthest_below = x, furthest_above = x;
-    lattice.for_each_near(x, [&](const Vec3& q) {
-      furthest_below = furthest_below.cwiseMin(q);
-      furthest_above = furthest_above.cwiseMax(q);
-    });
-    CHECK(furthest_below[2] <
-          box.lower[2]);  // 0.147 m is less than h: both walls are near everywhere
-    CHECK(furthest_above[2] > box.upper[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Real side : {0.0F, 1.0F}) {
+      CAPTURE(axis);
+      CAPTURE(side);
+      Vec3 x = (box.lower + box.upper) / 2;  // on the wall, in the middle of it
+      x[axis] = side * box.upper[axis];
+      Real reach = 0;
+      int count = 0;
+      lattice.for_each_near(x, [&](const Vec3& q) {
+        const Real outward = (side > 0 ? 1.0F : -1.0F) * (q[axis] - x[axis]);
+        reach = std::max(reach, outward);
+        count += static_cast<int>(outward > 0);
+      });
+      CHECK(reach ==
+            doctest::Approx(1.5 * kSpacing));  // two layers, the second 1.5 spacings outside
+      CHECK(count >= 9);
+    }
   }
 }
 
