@@ -17,7 +17,6 @@ from pbfluids import _openmp as _openmp  # first: it decides how the extension i
 from pbfluids import errors, operators
 from pbfluids._version import __version__
 from pbfluids.errors import FluidError
-from pbfluids.render import Camera, Renderer, RenderParams
 from pbfluids.simulation import (
     Box,
     FluidParams,
@@ -30,6 +29,7 @@ from pbfluids.simulation import (
 
 if TYPE_CHECKING:
     from pbfluids.diagnosis import doctor
+    from pbfluids.render import Camera, Renderer, RenderParams
     from pbfluids.scene import Frame, Scene
 
 __all__ = [
@@ -52,8 +52,16 @@ __all__ = [
     "operators",
 ]
 
-# Scenes bring pydantic, which takes longer to import than all the rest.
-_LAZY = {"Frame": "scene", "Scene": "scene", "doctor": "diagnosis"}
+# Scenes bring pydantic, which takes longer to import than all the rest. What draws is not there in
+# a build without the renderer, which still simulates.
+_LAZY = {
+    "Camera": "render",
+    "Frame": "scene",
+    "RenderParams": "render",
+    "Renderer": "render",
+    "Scene": "scene",
+    "doctor": "diagnosis",
+}
 
 
 def __getattr__(name: str) -> Any:
