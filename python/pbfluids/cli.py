@@ -8,9 +8,13 @@ from collections.abc import Sequence
 
 from pbfluids.errors import FluidError, InvalidParameter, MissingExtra, WrongType
 
-__all__ = ["main"]
+__all__ = ["Interrupted", "main"]
 
 FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
+
+
+class Interrupted(Exception):
+    """Ctrl-C; not KeyboardInterrupt, of which typer makes what its version likes."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     debug = "--debug" in given  # anywhere, not only before the command
     try:
         return _run([argument for argument in given if argument != "--debug"])
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, Interrupted):
         return _fail("interrupted; the files written so far are complete", INTERRUPTED)
     except (FluidError, OSError, MemoryError) as error:
         if debug:

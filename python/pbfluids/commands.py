@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,6 +13,7 @@ import typer
 
 from pbfluids import toml
 from pbfluids._version import __version__
+from pbfluids.cli import Interrupted
 from pbfluids.errors import InvalidParameter
 from pbfluids.progress import Progress
 from pbfluids.scene import Scene
@@ -88,7 +91,7 @@ def run(
     if threads is not None:
         overrides["solver.num_threads"] = threads
     chosen = _scene(scene, overrides)
-    with Progress(chosen.name) as progress:
+    with _interruptible(), Progress(chosen.name) as progress:
         result = simulate(
             chosen,
             out or Path("out") / chosen.name,
@@ -122,7 +125,7 @@ def render_again(
     overrides = _assignments(changes or [])
     if camera is not None:
         overrides["camera"] = _value(f"{{{camera}}}", f"--camera {camera}")
-    with Progress("render") as progress:
+    with _interruptible(), Progress("render") as progress:
         result = draw(
             directory,
             overrides=overrides,
@@ -159,6 +162,14 @@ def doctor(
 def schema() -> None:
     """Print the JSON Schema of scene files."""
     print(json.dumps(Scene.json_schema(), indent=1))
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        raise Interrupted from error
 
 
 def _scene(name: str, overrides: dict[str, Any]) -> Scene:

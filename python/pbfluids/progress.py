@@ -6,6 +6,9 @@ import sys
 import time
 from types import TracebackType
 
+from rich import progress
+from rich.console import Console
+
 __all__ = ["Progress"]
 
 _LINE_INTERVAL = 2.0  # s
@@ -55,9 +58,6 @@ class Progress:
 
 class _Bar:
     def __init__(self, title: str) -> None:
-        from rich import progress
-        from rich.console import Console
-
         self._progress = progress.Progress(
             progress.TextColumn("{task.description}"),
             progress.BarColumn(),
