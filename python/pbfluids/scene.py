@@ -215,11 +215,14 @@ class Scene:
         """Where the scene is seen from; by default so that all of it is seen."""
         given = self._given("camera")
         lower, upper = self._bounds()
-        middle, reach = (lower + upper) / 2, float(np.linalg.norm(upper - lower)) / 2
-        target = np.asarray(given.get("target", middle))
-        angle = math.radians(_core.Camera(**{**given, "eye": (0, 0, 1), "target": (0, 0, 0)}).fov_y)
-        view = np.array([0.35, 0.35, 1.0])
-        eye = target + reach / math.sin(angle / 2) * view / np.linalg.norm(view)
+        reach = float(np.linalg.norm(upper - lower)) / 2
+        target = np.asarray(given.get("target", (lower + upper) / 2), float)
+        up = np.asarray(given["up"], float)
+        right = np.cross(up, (0.0, 0.0, 1.0) if up[1] or not up[2] else (0.0, -1.0, 0.0))
+        front = np.cross(right, up)
+        view = sum(k * v / np.linalg.norm(v) for k, v in [(0.35, right), (0.35, up), (1, front)])
+        distance = reach / math.sin(math.radians(given["fov_y"]) / 2)
+        eye = target + distance * view / np.linalg.norm(view)
         return _core.Camera(**{"eye": eye.tolist(), "target": target.tolist(), **given})
 
     @property
