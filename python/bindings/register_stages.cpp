@@ -122,8 +122,8 @@ py::tuple predict_stage(const py::object& positions,
   const FloatArray x = points_array(positions, "positions");
   const FloatArray v = points_array(velocities, "velocities");
   const Discretization disc(fluid, box);
-  Points x_star;
-  predict(points_view(x), points_view(v), disc, dt, 0, x_star);
+  Points x_star, u;
+  predict(points_view(x), points_view(v), disc, dt, 0, x_star, u);
   Points v_predicted = points_view(v).colwise() + Vec3(dt * fluid.gravity);
   return py::make_tuple(points_to_numpy(std::move(v_predicted)),
                         points_to_numpy(std::move(x_star)));

@@ -100,13 +100,13 @@ void compute_corrections(const Neighborhood& near,
 }
 
 void apply_corrections(const Discretization& disc,
+                       const PointsView& x,
                        const PointsView& dp,
                        int threads,
-                       Points& x_star) {
-  parallel_for(x_star.cols(), threads, [&](Index i) {
-    const Vec3 moved = x_star.col(i) + dp.col(i);
-    x_star.col(i) = disc.project(moved);
-  });
+                       Points& x_star,
+                       Points& u) {
+  parallel_for(x.cols(), threads,
+               [&](Index i) { disc.move(x.col(i), dp.col(i), x_star.col(i), u.col(i)); });
 }
 
 }  // namespace pbf

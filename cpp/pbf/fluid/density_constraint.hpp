@@ -40,10 +40,13 @@ void compute_corrections(const Neighborhood& near,
                          const ScalarsView& lambda,
                          Points& dp);
 
-/// x* ← project(x* + Δp): collision detection and response have the last word in every iteration.
+/// x* ← project(x* + Δp), and the displacement u = x* − x with it: collision detection and response
+/// have the last word in every iteration.
 void apply_corrections(const Discretization& disc,
+                       const PointsView& x,
                        const PointsView& dp,
                        int threads,
-                       Points& x_star);
+                       Points& x_star,
+                       Points& u);
 
 }  // namespace pbf

@@ -24,6 +24,17 @@ struct Discretization {
   /// Collision detection and response: x moved to the nearest place that a particle can have.
   [[nodiscard]] Vec3 project(const Vec3& x) const { return centers ? centers->project(x) : x; }
 
+  /// x* ← project(x* + by), and the displacement u = x* − x with it: by more, or what a wall leaves.
+  template <class Column>
+  void move(const Vec3& x, const Vec3& by, Column x_star, Column u) const {
+    const Vec3 moved = x_star + by;
+    const Vec3 allowed = project(moved);
+    for (int axis = 0; axis < 3; ++axis) {
+      u[axis] = allowed[axis] == moved[axis] ? u[axis] + by[axis] : allowed[axis] - x[axis];
+    }
+    x_star = allowed;
+  }
+
   /// Throws InvalidParameter if the parameters break a rule or the domain is thinner than a
   /// particle.
   explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});

@@ -5,17 +5,21 @@
 namespace pbf {
 
 /// x* = project(x + dt (v + dt g)): where each particle would be without the others, moved out of
-/// the walls. Algorithm 1, lines 1–4 [MM13]. v itself is not changed: the velocity update reads
-/// positions only.
+/// the walls. Algorithm 1, lines 1–4 [MM13]. v itself is not changed: the velocity update reads the
+/// displacement u = x* − x only.
+///
+/// u is kept beside x* and added up from its parts. The difference of the positions would carry
+/// their rounding into the velocities, EPS ‖x‖/dt, alike for all particles that share a coordinate:
+/// drops in open space would gain momentum, the more the farther from the origin.
 void predict(const PointsView& x,
              const PointsView& v,
              const Discretization& disc,
              Real dt,
              int threads,
-             Points& x_star);
+             Points& x_star,
+             Points& u);
 
-/// v = (x* − x)/dt   Algorithm 1, line 20 [MM13].
-void update_velocity(
-    const PointsView& x, const PointsView& x_star, Real dt, int threads, Points& v);
+/// v = u/dt = (x* − x)/dt   Algorithm 1, line 20 [MM13].
+void update_velocity(const PointsView& u, Real dt, int threads, Points& v);
 
 }  // namespace pbf

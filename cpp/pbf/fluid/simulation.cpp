@@ -115,7 +115,7 @@ StepReport Simulation::step(Real dt) {
   StepReport report;
   {
     const auto t = report.time(Stage::predict);
-    predict(state_.x, state_.v, disc_, dt, threads, x_star_);
+    predict(state_.x, state_.v, disc_, dt, threads, x_star_, u_);
   }
   {
     const auto t = report.time(Stage::neighbors);
@@ -137,12 +137,12 @@ StepReport Simulation::step(Real dt) {
     }
     {
       const auto t = report.time(Stage::collision);
-      apply_corrections(disc_, dp_, threads, x_star_);
+      apply_corrections(disc_, state_.x, dp_, threads, x_star_, u_);
     }
   }
   {
     const auto t = report.time(Stage::velocity);
-    update_velocity(state_.x, x_star_, dt, threads, v_new_);
+    update_velocity(u_, dt, threads, v_new_);
   }
   if (solver_.vorticity > 0) {
     const auto t = report.time(Stage::vorticity);
@@ -190,11 +190,13 @@ void Simulation::sort_by_cell() {
   gather(state_.ids, grid_.order(), threads, sorted_.ids);
   gather(state_.lambda, grid_.order(), threads, sorted_.lambda);
   gather(x_star_, grid_.order(), threads, dp_);
+  gather(u_, grid_.order(), threads, omega_);
   state_.x.swap(sorted_.x);
   state_.v.swap(sorted_.v);
   state_.ids.swap(sorted_.ids);
   state_.lambda.swap(sorted_.lambda);
   x_star_.swap(dp_);
+  u_.swap(omega_);
 }
 
 /// Density errors at the positions the step ends with; throws if any number is not finite.

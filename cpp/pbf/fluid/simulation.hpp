@@ -68,7 +68,7 @@ class Simulation {
   State state_, sorted_;
 
   // Of the step under way; swapped with the state when it has succeeded.
-  Points x_star_, v_new_;
+  Points x_star_, u_, v_new_;
   Scalars lambda_new_;
   Points dp_, omega_;
   Scalars relative_density_;
