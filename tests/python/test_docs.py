@@ -16,12 +16,14 @@ ROOMS = ("cpp", "glsl", "python", "docs", "tests", "scenes", "bench")
 
 
 def citations() -> dict[str, str]:
-    """Key of each [Key99] in code and docs → a file that has it."""
+    """Key of each citation in code and docs → a file that has it."""
     found = {}
     for room in ROOMS:
         for path in (ROOT / room).rglob("*"):
             if path.suffix in SUFFIXES:
-                keys = re.findall(r"\[([A-Z][A-Za-z]{1,7}\d\d)\]", path.read_text(encoding="utf-8"))
+                keys = re.findall(
+                    r"\[((?=\w*[A-Z])[A-Za-z]{2,7}\d\d)\]", path.read_text(encoding="utf-8")
+                )
                 found |= dict.fromkeys(keys, str(path))
     return found
 
@@ -59,7 +61,7 @@ def test_the_generated_pages_are_up_to_date():
 
 def test_no_path_in_the_map_of_contributing_is_stale():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    paths = re.findall(r"`((?:cpp|glsl|python|cmake|scripts|scenes|tests)/[^`<>*]*)`", text)
+    paths = re.findall(r"`((?:cpp|glsl|python|cmake|scripts|scenes|tests)/[^`<>* ]*)`", text)
     assert len(paths) > 10
     files = [form for path in paths for form in expanded(path)]
     assert not [path for path in files if not (ROOT / path).exists()]
