@@ -2,6 +2,7 @@
 #include "pbf/fluid/simulation.hpp"
 #include "pbf/scene/shapes.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #ifdef HAVE_RENDER
 #include "pbf/render/fluid_renderer.hpp"
@@ -18,6 +19,16 @@ int main() {
     std::puts("the dam did not break");
     return 1;
   }
+#ifdef HAVE_RENDER
+  pbf::FluidRenderer renderer(64, 36);
+  const pbf::Camera camera{.eye{0.3F, 0.3F, 1}, .target{0.3F, 0.1F, 0.1F}};
+  const pbf::Layers layers = renderer.layers(x, camera, {.radius = fluid.spacing});
+  if (std::ranges::max(layers.depth.data) <= 0) {
+    std::puts("no fluid in the picture");
+    return 1;
+  }
+  std::puts("drawn");
+#endif
   std::printf("%lld particles after %.3f s\n", static_cast<long long>(x.cols()), simulation.time());
   return 0;
 }
