@@ -1,0 +1,32 @@
+#pragma once
+
+#include "pbf/core/types.hpp"
+#include "pbf/gl/handle.hpp"
+
+namespace pbf {
+
+/// A buffer whose whole content is replaced at a time, as each frame does.
+class Buffer {
+ public:
+  explicit Buffer(GLenum target) : target_(target) {}
+  void upload(const void* data, GLsizeiptr bytes) const;
+  void bind_base(GLuint index) const;
+  void bind() const;
+
+ private:
+  GLenum target_;
+  GlHandle<BufferKind> handle_;
+};
+
+/// How vertices are fetched: nothing, or one vec3 per instance from a buffer.
+class VertexArray {
+ public:
+  VertexArray() = default;
+  void point_instances(const Buffer& points, GLuint attribute) const;
+  void bind() const { glBindVertexArray(handle_.name()); }
+
+ private:
+  GlHandle<VertexArrayKind> handle_;
+};
+
+}  // namespace pbf

@@ -1,0 +1,30 @@
+#include "pbf/gl/draw.hpp"
+
+#include "pbf/gl/functions.hpp"
+
+namespace pbf {
+
+void set_draw_state(Blend blend) {
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  if (blend == Blend::replace) {
+    glDisable(GL_BLEND);
+    return;
+  }
+  glEnable(GL_BLEND);
+  glBlendEquation(blend == Blend::max || blend == Blend::max_and_add ? GL_MAX : GL_FUNC_ADD);
+  if (blend == Blend::max_and_add) glBlendEquationi(1, GL_FUNC_ADD);
+  if (blend == Blend::over) {
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  } else {
+    glBlendFunc(GL_ONE, GL_ONE);
+  }
+}
+
+void draw_fullscreen() {
+  set_draw_state(Blend::replace);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace pbf

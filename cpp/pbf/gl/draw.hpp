@@ -1,0 +1,20 @@
+#pragma once
+
+namespace pbf {
+
+/// How what is drawn joins what is there.
+enum class Blend {
+  replace,
+  max,          ///< the larger value stays
+  add,          ///< the sum
+  max_and_add,  ///< max in the first target, add in the second; OpenGL 4.0
+  over,         ///< by the alpha of what is drawn
+};
+
+/// Sets all of the state that drawing depends on here: blending, back faces culled, no depth test.
+void set_draw_state(Blend blend);
+
+/// Three vertices, of which glsl/fullscreen.vert makes a triangle that covers the target; replaces it.
+void draw_fullscreen();
+
+}  // namespace pbf

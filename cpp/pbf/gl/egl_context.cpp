@@ -1,0 +1,230 @@
+#include "pbf/gl/egl_context.hpp"
+
+#include "pbf/core/error.hpp"
+#include "pbf/gl/egl_display.hpp"
+#include "pbf/gl/functions.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <mutex>
+#include <vector>
+
+namespace pbf {
+namespace {
+
+// Creating contexts, and the tables filled on the way, is for one thread at a time.
+std::mutex& creation_lock() {
+  static std::mutex lock;
+  return lock;
+}
+
+constexpr const char* kAfterFork =
+    "after fork() the graphics driver's threads are gone and it would wait for them for ever; start "
+    "worker processes with the \"spawn\" method, or make no renderer before forking";
+
+void forbid_egl_after_fork() {
+  static const int first_process = getpid();
+  if (getpid() != first_process) {
+    throw RendererUnavailable("EGL was started in process " + std::to_string(first_process) +
+                              ", this is its child " + std::to_string(getpid()) + ": " + kAfterFork);
+  }
+}
+
+struct Version {
+  EGLint major, minor;
+};
+constexpr std::array kVersions{Version{4, 5}, Version{4, 3}, Version{4, 1}, Version{3, 3}};
+
+#ifdef NDEBUG
+constexpr EGLint kDebugContext = 0;
+#else
+constexpr EGLint kDebugContext = 1;
+
+void report_gl_error(GLenum /*source*/,
+                     GLenum type,
+                     GLuint /*id*/,
+                     GLenum /*severity*/,
+                     GLsizei /*length*/,
+                     const char* message,
+                     const void* /*user*/) {
+  if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL error: %s\n", message);
+}
+#endif
+
+/// Null if no version is offered; eglGetError then knows about the last.
+EGLContext create_core_context(EGLDisplay display, EGLConfig config) {
+  for (const Version version : kVersions) {
+    const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                           version.major,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           version.minor,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           kDebugContext == 1 ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
+                                           kDebugContext,
+                                           EGL_NONE};
+    EGLContext context = eglCreateContext(display, config, nullptr, attributes.data());
+    if (context != nullptr) return context;
+  }
+  return nullptr;
+}
+
+/// A configuration is needed only where contexts do not work without one.
+EGLConfig pbuffer_config(EGLDisplay display) {
+  const std::array<EGLint, 5> wanted{
+      EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  eglChooseConfig(display, wanted.data(), &config, 1, &count);
+  return count > 0 ? config : nullptr;
+}
+
+std::string gl_string(GLenum name) {
+  const unsigned char* text = glGetString(name);
+  return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+std::string failure(const std::vector<std::string>& attempts) {
+  std::string text = "no OpenGL context could be made; tried in this order:";
+  for (const std::string& attempt : attempts) text += "\n  " + attempt;
+  return text +
+         "\nCure, whichever fits:"
+         "\n  software rendering: apt-get install libegl1 libgl1-mesa-dri"
+         "\n  NVIDIA in a container: docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=all"
+         "\n  another GPU: let the user open /dev/dri/renderD* (usermod -aG render,video $USER)"
+         "\n  conda: its libstdc++ may be too old for the system's driver "
+         "(conda install -c conda-forge libstdcxx-ng)";
+}
+
+/// OpenGL rather than OpenGL ES is meant while it lives; the choice is the thread's.
+class OpenGlApi {
+ public:
+  OpenGlApi() : before_(eglQueryAPI()), ok_(eglBindAPI(EGL_OPENGL_API) != 0) {}
+  ~OpenGlApi() { eglBindAPI(before_); }
+  OpenGlApi(const OpenGlApi&) = delete;
+  OpenGlApi& operator=(const OpenGlApi&) = delete;
+  [[nodiscard]] bool ok() const { return ok_; }
+
+ private:
+  EGLenum before_;
+  bool ok_;
+};
+
+}  // namespace
+
+EglContext::EglContext() : process_(getpid()) {
+  const std::lock_guard lock(creation_lock());
+  forbid_egl_after_fork();
+  create();
+  try {
+    const Current current(*this);
+    load_gl_functions();
+    ask_driver();
+  } catch (...) {
+    eglDestroyContext(display_, context_);
+    throw;
+  }
+}
+
+void EglContext::create() {
+  std::vector<std::string> attempts;
+  for (const EglPlatform& platform : egl_platforms(attempts)) {
+    const auto note = [&](const char* what) {
+      attempts.push_back(platform.name + ": " + what + ": " + egl_error_text());
+    };
+    display_ = open_display(platform);
+    if (display_ == nullptr) {
+      note("the display cannot be opened");
+      continue;
+    }
+    const OpenGlApi api;
+    if (!api.ok()) {
+      note("desktop OpenGL is not offered");
+      continue;
+    }
+    const char* extensions = eglQueryString(display_, EGL_EXTENSIONS);
+    const bool needs_surface = !has_extension(extensions, "EGL_KHR_surfaceless_context");
+    const bool needs_config =
+        needs_surface || !has_extension(extensions, "EGL_KHR_no_config_context");
+    EGLConfig config = needs_config ? pbuffer_config(display_) : nullptr;
+    if (needs_config && config == nullptr) {
+      note("no configuration for off-screen drawing");
+      continue;
+    }
+    context_ = create_core_context(display_, config);
+    if (context_ == nullptr) {
+      note("no OpenGL core context of version 3.3 or newer");
+      continue;
+    }
+    if (needs_surface) {
+      const std::array<EGLint, 5> size{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+      surface_ = eglCreatePbufferSurface(display_, config, size.data());
+    }
+    info_.platform = platform.name;
+    return;
+  }
+  throw RendererUnavailable(failure(attempts));
+}
+
+void EglContext::ask_driver() {
+  info_.renderer = gl_string(GL_RENDERER);
+  info_.vendor = gl_string(GL_VENDOR);
+  info_.version = gl_string(GL_VERSION);
+  glGetIntegerv(GL_MAJOR_VERSION, &info_.major);
+  glGetIntegerv(GL_MINOR_VERSION, &info_.minor);
+#ifndef NDEBUG
+  if (has_version(4, 3)) {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(report_gl_error, nullptr);
+  }
+#endif
+}
+
+EglContext::~EglContext() {
+  if (!is_usable_here()) return;
+  eglDestroyContext(display_, context_);
+  if (surface_ != nullptr) eglDestroySurface(display_, surface_);
+}
+
+bool EglContext::is_usable_here() const { return getpid() == process_; }
+
+bool EglContext::has_version(int major, int minor) const {
+  return info_.major > major || (info_.major == major && info_.minor >= minor);
+}
+
+std::string EglContext::description() const {
+  return info_.renderer + ", OpenGL " + std::to_string(info_.major) + "." +
+         std::to_string(info_.minor) + ", " + info_.platform;
+}
+
+EglContext::Current::Current(const EglContext& context) : own_display_(context.display_) {
+  if (!context.is_usable_here()) {
+    throw GlError("this renderer belongs to process " + std::to_string(context.process_) +
+                  ", this is process " + std::to_string(getpid()) + ": " + kAfterFork);
+  }
+  api_ = eglQueryAPI();
+  eglBindAPI(EGL_OPENGL_API);
+  display_ = eglGetCurrentDisplay();
+  draw_ = eglGetCurrentSurface(EGL_DRAW);
+  read_ = eglGetCurrentSurface(EGL_READ);
+  context_ = eglGetCurrentContext();
+  if (eglMakeCurrent(own_display_, context.surface_, context.surface_, context.context_) == 0) {
+    const std::string error = egl_error_text();
+    eglBindAPI(api_);
+    throw GlError("the OpenGL context cannot be made current: " + error);
+  }
+}
+
+EglContext::Current::~Current() {
+  if (context_ != nullptr) {
+    eglMakeCurrent(display_, draw_, read_, context_);
+  } else {
+    eglMakeCurrent(own_display_, nullptr, nullptr, nullptr);
+  }
+  eglBindAPI(api_);
+}
+
+}  // namespace pbf

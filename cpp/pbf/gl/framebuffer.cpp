@@ -1,0 +1,44 @@
+#include "pbf/gl/framebuffer.hpp"
+
+#include "pbf/core/error.hpp"
+
+#include <string>
+#include <vector>
+
+namespace pbf {
+
+Framebuffer::Framebuffer(std::initializer_list<const Texture*> targets)
+    : width_((*targets.begin())->width()), height_((*targets.begin())->height()) {
+  glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
+  std::vector<GLenum> attachments;
+  for (const Texture* texture : targets) {
+    attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachments.back(), GL_TEXTURE_2D, texture->name(), 0);
+  }
+  glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    throw GlError("a framebuffer of " + std::to_string(width_) + "x" + std::to_string(height_) +
+                  " pixels cannot be drawn to (status " + std::to_string(status) +
+                  "): use a smaller image");
+  }
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
+  glViewport(0, 0, width_, height_);
+}
+
+void Framebuffer::clear(int target, std::array<float, 4> value) const {
+  bind();
+  glClearBufferfv(GL_COLOR, target, value.data());
+}
+
+void Framebuffer::read(GLenum format, GLenum type, void* data) const {
+  bind();
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, format, type, data);
+}
+
+}  // namespace pbf

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "pbf/gl/texture.hpp"
+
+#include <array>
+#include <initializer_list>
+
+namespace pbf {
+
+/// Draws into textures of one size, which must outlive it.
+class Framebuffer {
+ public:
+  /// Throws GlError if the driver cannot draw into them.
+  Framebuffer(std::initializer_list<const Texture*> targets);
+  /// Makes it the place to draw to, all of it.
+  void bind() const;
+  void clear(int target, std::array<float, 4> value) const;
+  /// Rows from the bottom up, as many floats per pixel as the format has channels.
+  void read(GLenum format, GLenum type, void* data) const;
+
+ private:
+  GlHandle<FramebufferKind> handle_;
+  int width_, height_;
+};
+
+}  // namespace pbf

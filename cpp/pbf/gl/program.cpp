@@ -1,0 +1,106 @@
+#include "pbf/gl/program.hpp"
+
+#include "pbf/core/error.hpp"
+
+#include <regex>
+#include <sstream>
+
+namespace pbf {
+namespace {
+
+class ShaderObject {
+ public:
+  explicit ShaderObject(GLenum type) : name_(glCreateShader(type)) {}
+  ~ShaderObject() { glDeleteShader(name_); }
+  ShaderObject(const ShaderObject&) = delete;
+  ShaderObject& operator=(const ShaderObject&) = delete;
+  [[nodiscard]] GLuint name() const { return name_; }
+
+ private:
+  GLuint name_;
+};
+
+std::string nth_line(const std::string& text, int number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int k = 0; k < number; ++k) std::getline(lines, line);
+  return line;
+}
+
+template <class Get, class GetLog>
+std::string info_log(GLuint name, Get get, GetLog get_log) {
+  GLint length = 0;
+  get(name, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  get_log(name, length, nullptr, log.data());
+  while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) log.pop_back();
+  return log;
+}
+
+/// Drivers write file and line as `0:23(5): …` (Mesa), `0(23) : …` (NVIDIA) or `ERROR: 0:23: …`.
+std::string located(const std::string& log,
+                    const std::vector<std::string>& names,
+                    const std::vector<std::string>& texts) {
+  static const std::regex place(R"((\d+)(?::(\d+)|\((\d+)\)))");
+  std::smatch match;
+  if (!std::regex_search(log, match, place)) return names.back() + ": " + log;
+  const auto file = static_cast<std::size_t>(std::stoul(match[1]));
+  const int line = std::stoi(match[2].matched ? match[2] : match[3]);
+  if (file >= names.size()) return names.back() + ": " + log;
+  return names[file] + ":" + std::to_string(line) + ": does not compile\n  " + std::to_string(line) +
+         " | " + nth_line(texts[file], line) + "\n" + log;
+}
+
+void compile(const ShaderObject& shader,
+             const GlslSource& source,
+             const std::vector<std::string>& names,
+             const std::vector<std::string>& defines) {
+  std::string text = "#version 330 core\n";
+  for (const std::string& define : defines) text += "#define " + define + "\n";
+  std::vector<std::string> texts;
+  for (const std::string& name : names) {
+    texts.push_back(source(name));
+    text += "#line 1 " + std::to_string(texts.size() - 1) + "\n" + texts.back() + "\n";
+  }
+  const char* pointer = text.c_str();
+  glShaderSource(shader.name(), 1, &pointer, nullptr);
+  glCompileShader(shader.name());
+  GLint ok = 0;
+  glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
+  if (ok == 0) {
+    throw GlError(located(info_log(shader.name(), glGetShaderiv, glGetShaderInfoLog), names, texts));
+  }
+}
+
+}  // namespace
+
+Program::Program(const GlslSource& source, const ProgramFiles& files) {
+  const ShaderObject vertex(GL_VERTEX_SHADER);
+  const ShaderObject fragment(GL_FRAGMENT_SHADER);
+  compile(vertex, source, files.vertex, files.defines);
+  compile(fragment, source, files.fragment, files.defines);
+  glAttachShader(handle_.name(), vertex.name());
+  glAttachShader(handle_.name(), fragment.name());
+  glBindAttribLocation(handle_.name(), 0, "a_position");
+  glLinkProgram(handle_.name());
+  GLint ok = 0;
+  glGetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
+  if (ok == 0) {
+    throw GlError(files.vertex.back() + " and " + files.fragment.back() + " do not link\n" +
+                  info_log(handle_.name(), glGetProgramiv, glGetProgramInfoLog));
+  }
+  const GLuint frame = glGetUniformBlockIndex(handle_.name(), "Frame");
+  if (frame != ~0U) glUniformBlockBinding(handle_.name(), frame, 0);
+}
+
+GLint Program::location(const char* name) const {
+  return glGetUniformLocation(handle_.name(), name);
+}
+void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
+void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }
+void Program::set(const char* name, int x, int y) const { glUniform2i(location(name), x, y); }
+void Program::set(const char* name, const Vec3& value) const {
+  glUniform3f(location(name), value.x(), value.y(), value.z());
+}
+
+}  // namespace pbf

@@ -1,0 +1,39 @@
+#include "pbf/gl/texture.hpp"
+
+namespace pbf {
+namespace {
+
+struct Layout {
+  GLenum internal, format, type;
+};
+
+Layout layout_of(Format format) {
+  switch (format) {
+    case Format::r32f: return {GL_R32F, GL_RED, GL_FLOAT};
+    case Format::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::rgba8: break;
+  }
+  return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+}
+
+}  // namespace
+
+Texture::Texture(int width, int height, Format format, const void* data)
+    : width_(width), height_(height) {
+  const Layout layout = layout_of(format);
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(layout.internal), width, height, 0,
+               layout.format, layout.type, data);
+}
+
+void Texture::bind(int unit) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+}
+
+}  // namespace pbf

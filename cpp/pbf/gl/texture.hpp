@@ -1,0 +1,25 @@
+#pragma once
+
+#include "pbf/gl/handle.hpp"
+
+namespace pbf {
+
+/// Channels and precision of a texture.
+enum class Format { r32f, rgba32f, rgba8 };
+
+/// A two-dimensional texture without mipmaps, clamped to its edge.
+class Texture {
+ public:
+  /// @param data  rows from the bottom up in the format's own type, or null for undefined content
+  Texture(int width, int height, Format format, const void* data = nullptr);
+  void bind(int unit) const;
+  [[nodiscard]] GLuint name() const { return handle_.name(); }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  GlHandle<TextureKind> handle_;
+  int width_, height_;
+};
+
+}  // namespace pbf

@@ -1,0 +1,189 @@
+#include "pbf/render/fluid_renderer.hpp"
+
+#include "pbf/render/frame_block.hpp"
+#include "pbf/render/glsl_source.hpp"
+#include "pbf/render/passes/composite.hpp"
+#include "pbf/render/passes/depth_smooth.hpp"
+#include "pbf/render/passes/normal.hpp"
+#include "pbf/render/passes/sphere_depth.hpp"
+#include "pbf/render/passes/thickness.hpp"
+#include "pbf/render/passes/thickness_smooth.hpp"
+#include "pbf/render/read_back.hpp"
+
+#include <chrono>
+
+namespace pbf {
+namespace {
+
+int checked_side(int side, const char* name) {
+  if (side < 1) {
+    throw InvalidParameter(std::string(name) + " = " + std::to_string(side) +
+                           " pixels: must be at least 1");
+  }
+  return side;
+}
+
+void require_drawable(int width, int height) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (width > limit || height > limit) {
+    throw InvalidParameter((width > limit ? "width = " + std::to_string(width)
+                                          : "height = " + std::to_string(height)) +
+                           " pixels: this driver draws at most " + std::to_string(limit));
+  }
+}
+
+void require_no_gl_error() {
+  if (const GLenum error = glGetError(); error == GL_OUT_OF_MEMORY) {
+    throw std::bad_alloc();
+  } else if (error != GL_NO_ERROR) {
+    throw GlError("the driver reports OpenGL error " + std::to_string(error));
+  }
+}
+
+}  // namespace
+
+/// Compiled once. Which of the two ways depth and thickness come about is the driver's ability.
+struct FluidRenderer::Passes {
+  explicit Passes(bool one_pass)
+      : sphere_depth(glsl_source, one_pass),
+        thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)) {}
+  Buffer frame{GL_UNIFORM_BUFFER};
+  Sprites sprites;
+  VertexArray no_vertices;
+  SphereDepth sphere_depth;
+  std::unique_ptr<Thickness> thickness;
+  DepthSmooth depth_smooth{glsl_source};
+  ThicknessSmooth thickness_smooth{glsl_source};
+  Normal normal{glsl_source};
+  Composite composite{glsl_source};
+};
+
+/// A texture and the framebuffer that draws into it.
+struct Target {
+  Target(int width, int height, Format format)
+      : texture(width, height, format), framebuffer({&texture}) {}
+  Texture texture;
+  Framebuffer framebuffer;
+};
+
+struct FluidRenderer::Targets {
+  Targets(int w, int h)
+      : depth(w, h, Format::r32f),
+        thickness(w, h, Format::r32f),
+        depth_and_thickness({&depth.texture, &thickness.texture}),
+        between(w, h, Format::r32f),
+        depth_smooth(w, h, Format::r32f),
+        thickness_smooth(w, h, Format::r32f),
+        normal(w, h, Format::rgba32f),
+        color(w, h, Format::rgba8) {}
+  Target depth, thickness;            ///< affine depth; [m]
+  Framebuffer depth_and_thickness;    ///< both of these at once
+  Target between;                     ///< a filter's first half
+  Target depth_smooth;                ///< affine depth
+  Target thickness_smooth;            ///< [m]
+  Target normal;                      ///< eye space
+  Target color;                       ///< sRGB
+};
+
+FluidRenderer::FluidRenderer(int width, int height)
+    : width_(checked_side(width, "width")), height_(checked_side(height, "height")) {
+  const auto current = context_.make_current();
+  require_drawable(width, height);
+  auto passes = std::make_unique<Passes>(context_.has_version(4, 0));
+  auto targets = std::make_unique<Targets>(width, height);
+  require_no_gl_error();
+  passes_ = std::move(passes);
+  targets_ = std::move(targets);
+}
+
+FluidRenderer::~FluidRenderer() {
+  try {
+    const auto current = context_.make_current();
+    targets_.reset();
+    passes_.reset();
+  } catch (const Error&) {
+    // In a forked child, or after the device was lost, there are no OpenGL names to give back.
+    (void)targets_.release();
+    (void)passes_.release();
+  }
+}
+
+template <class F>
+void FluidRenderer::stage(const char* name, F&& pass) {
+  const auto start = std::chrono::steady_clock::now();
+  pass();
+  if (!timed_) return;
+  glFinish();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  report_.milliseconds.emplace_back(name, time.count());
+}
+
+Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const RenderParams& params) {
+  Passes& pass = *passes_;
+  Targets& to = *targets_;
+  report_ = {.particles = positions.cols(), .milliseconds = {}};
+  stage("upload", [&] {
+    const FrameBlock frame = frame_block(camera, width_, height_);
+    pass.frame.upload(&frame, sizeof frame);
+    pass.frame.bind_base(0);
+    pass.sprites.upload(positions);
+  });
+  if (pass.thickness == nullptr) {
+    stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth_and_thickness); });
+  } else {
+    stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth.framebuffer); });
+    stage("thickness", [&] { (*pass.thickness)(pass.sprites, params, to.thickness.framebuffer); });
+  }
+  pass.no_vertices.bind();
+  const Texture* depth = &to.depth.texture;
+  stage("depth_smooth", [&] {
+    for (int k = 0; k < params.smoothing_iterations; ++k) {
+      pass.depth_smooth(*depth, params, to.between.framebuffer, to.between.texture,
+                        to.depth_smooth.framebuffer);
+      depth = &to.depth_smooth.texture;
+    }
+  });
+  const Texture* thickness = &to.thickness.texture;
+  stage("thickness_smooth", [&] {
+    for (int k = 0; k < params.thickness_iterations; ++k) {
+      pass.thickness_smooth(*thickness, to.depth.texture, params, to.between.framebuffer,
+                            to.between.texture, to.thickness_smooth.framebuffer);
+      thickness = &to.thickness_smooth.texture;
+    }
+  });
+  stage("normal", [&] { pass.normal(*depth, to.normal.framebuffer); });
+  return {*depth, *thickness, to.normal.texture};
+}
+
+Image FluidRenderer::render(PointsView positions, const Camera& camera, const RenderParams& params) {
+  validate(camera);
+  validate(params);
+  const auto current = context_.make_current();
+  const Surface surface = draw(positions, camera, params);
+  stage("composite",
+        [&] { passes_->composite(surface, camera, params, targets_->color.framebuffer); });
+  Image image;
+  stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
+  require_no_gl_error();
+  return image;
+}
+
+Layers FluidRenderer::layers(PointsView positions, const Camera& camera, const RenderParams& params) {
+  validate(camera);
+  validate(params);
+  const auto current = context_.make_current();
+  const Surface surface = draw(positions, camera, params);
+  Layers layers;
+  stage("read_back", [&] {
+    layers = {.depth = read_depth(targets_->depth.texture, camera),
+              .depth_smooth = read_depth(surface.depth, camera),
+              .thickness = read_floats(targets_->thickness.texture, 1),
+              .thickness_smooth = read_floats(surface.thickness, 1),
+              .normal = read_floats(surface.normal, 3)};
+  });
+  require_no_gl_error();
+  return layers;
+}
+
+}  // namespace pbf

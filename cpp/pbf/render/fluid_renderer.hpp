@@ -1,0 +1,64 @@
+#pragma once
+
+#include "pbf/gl/egl_context.hpp"
+#include "pbf/render/camera.hpp"
+#include "pbf/render/image.hpp"
+#include "pbf/render/params.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pbf {
+
+struct Surface;
+
+/// What drawing the last picture took.
+struct RenderReport {
+  Index particles = 0;
+  /// Each pass in order and its time [ms]. Empty unless timing was asked for.
+  std::vector<std::pair<std::string, double>> milliseconds;
+};
+
+/// Draws particles as a fluid: screen-space rendering in six passes [vdL09].
+///
+/// Any thread may use it, one at a time; several renderers may live in one thread or in several. In a
+/// process forked from the one that made it, every call throws GlError.
+class FluidRenderer {
+ public:
+  /// Throws InvalidParameter for a size the driver cannot draw, RendererUnavailable without OpenGL.
+  FluidRenderer(int width, int height);
+  ~FluidRenderer();
+  FluidRenderer(const FluidRenderer&) = delete;
+  FluidRenderer& operator=(const FluidRenderer&) = delete;
+
+  /// @param positions  finite, column i is particle i [m]
+  Image render(PointsView positions, const Camera& camera, const RenderParams& params);
+  Layers layers(PointsView positions, const Camera& camera, const RenderParams& params);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] const EglContext& context() const { return context_; }
+  [[nodiscard]] const RenderReport& report() const { return report_; }
+  /// Waiting for each pass costs time: only for whoever wants to know.
+  void set_timed(bool timed) { timed_ = timed; }
+  [[nodiscard]] bool timed() const { return timed_; }
+
+ private:
+  struct Passes;
+  struct Targets;
+  Surface draw(PointsView positions, const Camera& camera, const RenderParams& params);
+  /// Runs a pass, and times it if that was asked for.
+  template <class F>
+  void stage(const char* name, F&& pass);
+
+  int width_, height_;
+  bool timed_ = false;
+  EglContext context_;
+  std::unique_ptr<Passes> passes_;
+  std::unique_ptr<Targets> targets_;
+  RenderReport report_;
+};
+
+}  // namespace pbf

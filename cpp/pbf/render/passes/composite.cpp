@@ -1,0 +1,87 @@
+#include "pbf/render/passes/composite.hpp"
+
+#include "pbf/gl/draw.hpp"
+
+#include <Eigen/Geometry>
+
+namespace pbf {
+namespace {
+
+Real floor_height(const RenderParams& params, const Vec3& up) {
+  if (params.floor_height) return *params.floor_height;
+  if (!params.tank_lower) return 0;
+  Real lowest = 0;  // of the tank's corners along up
+  for (int k = 0; k < 3; ++k) {
+    lowest += std::min(up[k] * (*params.tank_lower)[k], up[k] * (*params.tank_upper)[k]);
+  }
+  return lowest;
+}
+
+/// Half the width of the tank's edges with the soft margin [pixels].
+constexpr Real kEdgeHalfWidth = 1.3F;
+
+/// Tiles about a dozen sprites wide: in scale with the scene, whatever its size.
+constexpr Real kTileInRadii = 12.5F;
+
+void set_environment(const Program& program, const Camera& camera, const RenderParams& params) {
+  const Vec3 up = params.up.normalized();
+  const bool along_x = std::abs(up.x()) > 0.9F;
+  const Vec3 floor_x = (along_x ? Vec3::UnitY() : Vec3::UnitX()).cross(up).cross(-up).normalized();
+  program.set("u_up", up);
+  program.set("u_sun", Vec3(params.sun_direction.normalized()));
+  program.set("u_plain", params.background == Background::plain ? 1 : 0);
+  program.set("u_plain_color", params.background_color);
+  program.set("u_has_floor", params.floor ? 1 : 0);
+  program.set("u_floor_height", floor_height(params, up));
+  program.set("u_tile", kTileInRadii * params.radius);
+  program.set("u_has_tank", params.tank_lower ? 1 : 0);
+  program.set("u_tank_lower", params.tank_lower.value_or(Vec3::Zero()));
+  program.set("u_tank_upper", params.tank_upper.value_or(Vec3::Zero()));
+  program.set("u_floor_x", floor_x);
+  program.set("u_floor_y", Vec3(up.cross(floor_x)));
+  program.set("u_eye", camera.eye);
+  program.set("u_exposure", params.exposure);
+}
+
+}  // namespace
+
+Composite::Composite(const GlslSource& source)
+    : program_(source,
+               {.vertex = {"fullscreen.vert"},
+                .fragment = {"frame.glsl", "environment.glsl", "composite.frag"},
+                .defines = {}}),
+      tank_edges_(source,
+                  {.vertex = {"frame.glsl", "tank_edges.vert"},
+                   .fragment = {"frame.glsl", "tank_edges.frag"},
+                   .defines = {}}) {}
+
+void Composite::operator()(const Surface& surface,
+                           const Camera& camera,
+                           const RenderParams& params,
+                           const Framebuffer& out) const {
+  surface.depth.bind(0);
+  surface.thickness.bind(1);
+  surface.normal.bind(2);
+  out.bind();
+  program_.use();
+  program_.set("u_depth", 0);
+  program_.set("u_thickness", 1);
+  program_.set("u_normal", 2);
+  program_.set("u_absorption", params.absorption);
+  program_.set("u_scatter", params.scatter);
+  program_.set("u_refractive_index", params.refractive_index);
+  set_environment(program_, camera, params);
+  draw_fullscreen();
+  if (!params.tank_lower) return;
+  tank_edges_.use();
+  tank_edges_.set("u_depth", 0);
+  tank_edges_.set("u_thickness", 1);
+  tank_edges_.set("u_absorption", params.absorption);
+  tank_edges_.set("u_tank_lower", *params.tank_lower);
+  tank_edges_.set("u_tank_upper", *params.tank_upper);
+  tank_edges_.set("u_half_width", kEdgeHalfWidth);
+  set_draw_state(Blend::over);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 12);
+}
+
+}  // namespace pbf

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "pbf/gl/framebuffer.hpp"
+#include "pbf/gl/program.hpp"
+#include "pbf/render/camera.hpp"
+#include "pbf/render/params.hpp"
+
+namespace pbf {
+
+/// What composite draws from: smoothed affine depth, smoothed thickness [m], normal in eye space.
+struct Surface {
+  const Texture& depth;
+  const Texture& thickness;
+  const Texture& normal;
+};
+
+/// The picture: sky, floor and fluid. At the fluid's surface light is mirrored and bent (Fresnel, Snell);
+/// what comes through is absorbed along the thickness (Beer-Lambert). The tank's edges are drawn over it,
+/// or seen through the fluid.
+class Composite {
+ public:
+  explicit Composite(const GlslSource& source);
+  /// @param out  rgba8, sRGB-encoded
+  void operator()(const Surface& surface,
+                  const Camera& camera,
+                  const RenderParams& params,
+                  const Framebuffer& out) const;
+
+ private:
+  Program program_;
+  Program tank_edges_;
+};
+
+}  // namespace pbf

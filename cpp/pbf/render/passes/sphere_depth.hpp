@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pbf/gl/framebuffer.hpp"
+#include "pbf/gl/program.hpp"
+#include "pbf/render/params.hpp"
+#include "pbf/render/passes/sprites.hpp"
+
+namespace pbf {
+
+/// Front of the nearest sphere at each pixel, exactly where the viewing ray enters it, as affine depth
+/// (glsl/frame.glsl). MAX blending takes the nearest: without a depth buffer that is a third faster in a
+/// software rasterizer than gl_FragDepth.
+/// Where each target can blend in its own way (OpenGL 4.0) the thickness comes along in a second target:
+/// hitting each sphere once is cheaper than twice.
+class SphereDepth {
+ public:
+  explicit SphereDepth(const GlslSource& source, bool with_thickness);
+  /// @param out  r32f affine depth, and r32f thickness [m] if with_thickness; both are cleared first
+  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out) const;
+
+ private:
+  Program program_;
+  bool with_thickness_;
+};
+
+/// Affine depth where there is no fluid, as in glsl/frame.glsl.
+inline constexpr float kNothing = -1e30F;
+
+/// What a sprite's chord is multiplied by so that all chords together hold the particle's volume:
+///   V / (4/3 π R³)
+float volume_share(const RenderParams& params);
+
+}  // namespace pbf

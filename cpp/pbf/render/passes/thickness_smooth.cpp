@@ -1,0 +1,37 @@
+#include "pbf/render/passes/thickness_smooth.hpp"
+
+#include "pbf/gl/draw.hpp"
+
+namespace pbf {
+
+ThicknessSmooth::ThicknessSmooth(const GlslSource& source)
+    : program_(source,
+               {.vertex = {"fullscreen.vert"},
+                .fragment = {"frame.glsl", "smooth.glsl", "thickness_smooth.frag"},
+                .defines = {}}) {}
+
+void ThicknessSmooth::operator()(const Texture& thickness,
+                             const Texture& depth,
+                             const RenderParams& params,
+                             const Framebuffer& between,
+                             const Texture& between_texture,
+                             const Framebuffer& out) const {
+  program_.use();
+  program_.set("u_values", 0);
+  program_.set("u_depth", 1);
+  program_.set("u_empty", 0.0F);
+  program_.set("u_gaussian", params.thickness_smoothing == Smoothing::gaussian ? 1 : 0);
+  program_.set("u_radius", params.thickness_radius_in_force());
+  program_.set("u_range", params.thickness_range_in_force());
+  depth.bind(1);
+  thickness.bind(0);
+  between.bind();
+  program_.set("u_axis", 1, 0);
+  draw_fullscreen();
+  between_texture.bind(0);
+  out.bind();
+  program_.set("u_axis", 0, 1);
+  draw_fullscreen();
+}
+
+}  // namespace pbf

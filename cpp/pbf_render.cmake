@@ -1,0 +1,43 @@
+# The renderer: EGL and OpenGL are opened at run time, so nothing but the loader is linked.
+include(${PROJECT_SOURCE_DIR}/cmake/pbf_embed_glsl.cmake)
+
+add_library(pbf_render STATIC
+  pbf/gl/functions.cpp
+  pbf/gl/egl_display.cpp
+  pbf/gl/egl_context.cpp
+  pbf/gl/buffer.cpp
+  pbf/gl/texture.cpp
+  pbf/gl/framebuffer.cpp
+  pbf/gl/program.cpp
+  pbf/gl/draw.cpp
+  pbf/render/camera.cpp
+  pbf/render/params.cpp
+  pbf/render/frame_block.cpp
+  pbf/render/glsl_source.cpp
+  pbf/render/read_back.cpp
+  pbf/render/passes/sprites.cpp
+  pbf/render/passes/sphere_depth.cpp
+  pbf/render/passes/thickness.cpp
+  pbf/render/passes/depth_smooth.cpp
+  pbf/render/passes/thickness_smooth.cpp
+  pbf/render/passes/normal.cpp
+  pbf/render/passes/composite.cpp
+  pbf/render/fluid_renderer.cpp)
+target_link_libraries(pbf_render
+  PUBLIC pbf_core
+  PRIVATE ${CMAKE_DL_LIBS} $<BUILD_INTERFACE:pbf_warnings>)
+pbf_embed_glsl(pbf_render
+  frame.glsl
+  sprite.vert
+  sphere_hit.glsl
+  sphere_depth.frag
+  thickness.frag
+  fullscreen.vert
+  smooth.glsl
+  depth_smooth.frag
+  thickness_smooth.frag
+  normal.frag
+  environment.glsl
+  composite.frag
+  tank_edges.vert
+  tank_edges.frag)

@@ -1,0 +1,31 @@
+// frame.glsl: the camera, and the ways between pixel, eye space and the depth that the passes store.
+//
+// Eye space: x right, y up, z out of the picture, meters. Depth d is -z, measured along the viewing axis.
+// Stored is the *affine depth* a: 1/d in perspective, -d in parallel projection. On a plane it is an
+// affine function of the pixel's coordinates in both, so that a filter that keeps straight lines straight
+// keeps planes exactly; and nearer is always larger, so that blending with MAX finds the front.
+layout(std140) uniform Frame {
+  mat4 u_view;  // world to eye space
+  vec4 u_lens;  // half width and half height of what is seen (at depth 1 / everywhere), near, far [m]
+  vec4 u_size;  // width, height [pixels]; 1 perspective, 0 parallel; pixels per meter (at depth 1 / everywhere)
+};
+
+const float NOTHING = -1e30;  // affine depth where there is no fluid
+
+bool is_surface(float a) { return a > -1e29; }
+float affine_depth(float d) { return u_size.z > 0.5 ? 1.0 / d : -d; }
+float depth_of(float a) { return u_size.z > 0.5 ? 1.0 / a : -a; }
+
+// The viewing ray of a point of the picture [pixels]: origin + d * direction, d the depth.
+vec3 ray_origin(vec2 pixel) {
+  vec2 p = (2.0 * pixel / u_size.xy - 1.0) * u_lens.xy;
+  return vec3((1.0 - u_size.z) * p, 0.0);
+}
+vec3 ray_direction(vec2 pixel) {
+  vec2 p = (2.0 * pixel / u_size.xy - 1.0) * u_lens.xy;
+  return vec3(u_size.z * p, -1.0);
+}
+vec3 eye_position(vec2 pixel, float d) { return ray_origin(pixel) + d * ray_direction(pixel); }
+
+// Pixels that a length of one meter covers at a depth.
+float pixels_per_meter(float d) { return u_size.z > 0.5 ? u_size.w / d : u_size.w; }

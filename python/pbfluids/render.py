@@ -1,0 +1,161 @@
+"""The renderer's Python face."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypedDict
+
+from pbfluids import _core
+from pbfluids._core import Camera, RenderParams
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Self
+
+__all__ = ["Camera", "RenderParams", "RenderReport", "Renderer"]
+
+
+class RenderReport(TypedDict):
+    """What drawing the last picture took."""
+
+    particles: int
+    #: Each pass in order and its time [ms]; empty unless the renderer was made with ``timed=True``.
+    milliseconds: dict[str, float]
+
+
+class Renderer:
+    """Draws particles as a fluid, without a screen.
+
+    The passes of screen-space fluid rendering [vdL09]_: depth of spheres, thickness, both smoothed,
+    normals, and the picture. A context manager; :meth:`close` gives the graphics memory back.
+
+    Any thread may use a renderer; calls take turns. Several renderers may live at once. After
+    ``os.fork()`` the child cannot use it (nor make one, if the parent had): start workers with the
+    "spawn" method.
+
+    Parameters
+    ----------
+    width, height : int
+        Size of the pictures [pixels], at least 1, at most what the driver draws.
+    timed : bool, optional
+        Measure each pass (see :attr:`report`). Waiting for each costs a little.
+
+    Raises
+    ------
+    InvalidParameter
+        If the size cannot be drawn.
+    RendererUnavailable
+        If there is no OpenGL 3.3 here; the message lists every attempt and the cure. The
+        environment variable ``PBF_EGL_DEVICE`` asks for one EGL device by its index.
+
+    Examples
+    --------
+    >>> with pbf.Renderer(1280, 720) as renderer:
+    ...     image = renderer.render(positions, pbf.Camera(), pbf.RenderParams(radius=0.02))
+
+    """
+
+    def __init__(self, width: int, height: int, *, timed: bool = False) -> None:
+        self._core = _core.Renderer(width, height, timed)
+        self._size = (width, height)
+
+    def render(
+        self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
+    ) -> NDArray[np.uint8]:
+        """Draw the particles.
+
+        Parameters
+        ----------
+        positions : array_like, shape (n, 3), float32
+            Positions [m]. No particles give the background.
+        camera : Camera
+            Where the picture is taken from.
+        params : RenderParams, optional
+            How the fluid is drawn.
+
+        Returns
+        -------
+        ndarray, shape (height, width, 4), uint8
+            RGBA, sRGB-encoded, opaque. Row 0 is the top.
+
+        Raises
+        ------
+        InvalidParameter
+            If the shape is another or a position is not finite.
+        WrongType
+            If the positions are no real numbers.
+        GlError
+            If the renderer is closed or belongs to another process, a shader does not compile or
+            the driver fails.
+
+        """
+        return self._core.render(positions, camera, params or RenderParams())
+
+    def layers(
+        self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
+    ) -> dict[str, NDArray[np.float32]]:
+        """Give what the picture is made from; parameters and errors as for :meth:`render`.
+
+        Returns
+        -------
+        dict of ndarray, float32
+            ``depth``, ``depth_smooth``: shape (height, width), front of the fluid along the viewing
+            axis [m], 0 where there is none. ``thickness``, ``thickness_smooth``: shape
+            (height, width), length of fluid along the pixel's ray [m]. ``normal``: shape
+            (height, width, 3), unit normal in eye space (x right, y up, z towards the viewer),
+            0 where there is no fluid.
+
+        """
+        return self._core.layers(positions, camera, params or RenderParams())
+
+    def close(self) -> None:
+        """Give back what the renderer holds. Again is harmless; drawing afterwards is a GlError."""
+        self._core.close()
+
+    @property
+    def width(self) -> int:
+        """Width of the pictures [pixels]."""
+        return self._size[0]
+
+    @property
+    def height(self) -> int:
+        """Height of the pictures [pixels]."""
+        return self._size[1]
+
+    @property
+    def closed(self) -> bool:
+        """Whether :meth:`close` was called."""
+        return self._core.closed
+
+    @property
+    def description(self) -> str:
+        """Driver, OpenGL version and device in a line."""
+        return self._core.description
+
+    @property
+    def info(self) -> dict[str, str]:
+        """Renderer, vendor, version and platform as the driver names them."""
+        return self._core.info
+
+    @property
+    def report(self) -> RenderReport:
+        """Number of particles and times of the last picture."""
+        report: RenderReport = self._core.report
+        return report
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc_value: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self.closed else self.description
+        return f"Renderer({self.width}, {self.height}: {state})"
