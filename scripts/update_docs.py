@@ -35,7 +35,7 @@ def text_of(value: Any) -> str:
     if isinstance(value, (tuple, list)):
         return "(" + ", ".join(text_of(item) for item in value) + ")"
     if isinstance(value, float):
-        return f"{value:.7g}"
+        return f"{value:.5g}".replace("e+0", "e").replace("e-0", "e-")
     return f"`{value}`" if isinstance(value, str) else str(value)
 
 
