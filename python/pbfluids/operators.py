@@ -1,7 +1,6 @@
 """Differential operators on values carried by particles.
 
-With :math:`V` the particle volume and :math:`\\nabla W_{ij}` the kernel's gradient with respect to
-:math:`x_i`, sums over all particles within the support radius:
+With V the particle volume and ∇W_ij the kernel's gradient with respect to x_i, sums over all particles within the support radius:
 
 =========  ===================================================================================
 gradient   V Σ_j (A_j − A_i) ∇W_ij
@@ -12,8 +11,8 @@ laplacian  2 V Σ_j (A_i − A_j) (r_ij · ∇W_ij) / (‖r_ij‖² + 0.01 h²),
 density    ρ0 V Σ_j W_ij, the particle itself included
 =========  ===================================================================================
 
-Constants are differentiated exactly, to zero. ``corrected=True`` multiplies gradients with the inverse
-of V Σ (x_j − x_i) ⊗ ∇W, which makes linear fields exact too, at free surfaces as well.
+Constants are differentiated exactly, to zero. ``corrected=True`` multiplies gradients with the
+inverse of V Σ (x_j − x_i) ⊗ ∇W, which makes linear fields exact too, at free surfaces as well.
 
 Parameters common to all:
 
@@ -28,8 +27,8 @@ kernel : "poly6_spiky" or "cubic_spline"
 num_threads : int
     0 for all. The result has the same bits for any number.
 
-Raises ``InvalidParameter`` for wrong shapes or values and ``WrongType`` for arrays that do not hold real
-numbers.
+Raises ``InvalidParameter`` for wrong shapes or values and ``WrongType`` for arrays that do not hold
+real numbers.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from pbfluids.errors import InvalidParameter
+from pbfluids.errors import InvalidParameter, WrongType
 from pbfluids.scene_geometry import geometry_faults
 from pbfluids.scene_model import STRUCTS, TABLES, Ball, Block, Domain, SceneModel, SceneTables
 
@@ -103,14 +103,15 @@ def _keys_of(parents: list[str]) -> list[str]:
 
 def _build(section: str, data: Mapping[str, Any], wrong: set[Path]) -> tuple[Any, list[str]]:
     """Let the struct check those of its values that have the right type."""
-    table = data.get(section, {})
-    if not isinstance(table, Mapping):
+    given = data.get(section, {})
+    if not isinstance(given, Mapping):
         return None, []
-    sound = {key: table[key] for key in table if not _is_wrong((section, key), wrong)}
-    values = TABLES[section].model_validate(sound).model_dump(exclude_unset=True)
+    sound = {key: given[key] for key in given if not _is_wrong((section, key), wrong)}
+    table = TABLES[section].model_validate(sound)
+    values = table.model_dump(exclude_unset=True, exclude_none=True)
     try:
         return STRUCTS[section](**values), []
-    except InvalidParameter as error:
+    except (InvalidParameter, WrongType) as error:  # a whole number may be too large for an int
         owner = STRUCTS[section].__name__
         faults = str(error).splitlines()
         return None, [line.replace(f"{owner}.", f"{section}.", 1) for line in faults]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.limits import beyond
 
 import pbfluids as pbf
 from pbfluids.errors import FluidError, InvalidParameter, WrongType
@@ -88,18 +89,13 @@ def limits():
         for field in struct.describe():
             if field["kind"] not in ("float", "int", "vec3"):
                 continue
-            outside = [np.nan] if field["kind"] != "int" else []
-            if np.isfinite(field["least"]):
-                below = field["least"] - 1 - 1e-3 * abs(field["least"])
-                outside.append(field["least"] if field["least_excluded"] else below)
-            if np.isfinite(field["most"]):
-                above = field["most"] + 1 + 1e-3 * abs(field["most"])
-                outside.append(field["most"] if field["most_excluded"] else above)
+            outside = [beyond(field, end) for end in ("least", "most")]
+            if field["kind"] != "int":
+                outside.append(np.nan)
             if field["finite"] and field["kind"] != "int":
                 outside += [np.inf, -np.inf]
-            for value in outside:
-                number = int(value) if field["kind"] == "int" else value
-                given = (number,) * 3 if field["kind"] == "vec3" else number
+            for value in (value for value in outside if value is not None):
+                given = (value,) * 3 if field["kind"] == "vec3" else value
                 yield pytest.param(struct, field["name"], given, id=f"{field['name']}={value:g}")
 
 
