@@ -1,6 +1,7 @@
 """Differential operators on values carried by particles.
 
-With V the particle volume and ∇W_ij the kernel's gradient with respect to x_i, sums over all particles within the support radius:
+With V the particle volume and ∇W_ij the kernel's gradient with respect to x_i, sums over all
+particles within the support radius:
 
 =========  ===================================================================================
 gradient   V Σ_j (A_j − A_i) ∇W_ij

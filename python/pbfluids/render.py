@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, TypedDict, cast
 
 from pbfluids import _core
 from pbfluids._core import Camera, RenderParams
@@ -142,8 +142,7 @@ class Renderer:
     @property
     def report(self) -> RenderReport:
         """Number of particles and times of the last picture."""
-        report: RenderReport = self._core.report
-        return report
+        return cast("RenderReport", self._core.report)
 
     def __enter__(self) -> Self:
         return self
