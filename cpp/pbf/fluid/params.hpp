@@ -45,7 +45,7 @@ struct SolverParams {
   int iterations = 4;
   int substeps = 4;
   Real relaxation = 0.01F;
-  Real constraint_floor = 0.0F;
+  Real constraint_floor = -0.002F;
   Real tensile_strength = 0.02F;
   Real tensile_distance = 0.2F;
   int tensile_exponent = 4;
