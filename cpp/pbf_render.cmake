@@ -16,6 +16,7 @@ add_library(pbf_render STATIC
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
   pbf/render/passes/sprites.cpp
+  pbf/render/passes/fluid_tiles.cpp
   pbf/render/passes/sphere_depth.cpp
   pbf/render/passes/thickness.cpp
   pbf/render/passes/depth_smooth.cpp
@@ -33,11 +34,14 @@ pbf_embed_glsl(pbf_render
   sphere_depth.frag
   thickness.frag
   fullscreen.vert
+  fluid_tiles.vert
   smooth.glsl
   depth_smooth.frag
   thickness_smooth.frag
   normal.frag
   environment.glsl
+  display.glsl
+  background.frag
   composite.frag
   tank_edges.vert
   tank_edges.frag)

@@ -11,13 +11,13 @@ uniform float u_tile;           // side of a floor tile [m]
 uniform int u_has_tank;
 uniform vec3 u_tank_lower;      // [m]
 uniform vec3 u_tank_upper;      // [m]
+uniform vec3 u_eye;             // world space [m]
 uniform vec3 u_floor_x;         // unit vectors along the floor
 uniform vec3 u_floor_y;
-uniform float u_pixel_angle;    // a pixel's width at a distance of 1 m, parallel: its width [m]
 
-const vec3 HORIZON = vec3(0.74, 0.82, 0.88);
-const vec3 ZENITH = vec3(0.17, 0.36, 0.62);
-const vec3 FLOOR = vec3(0.56, 0.56, 0.55);
+const vec3 HORIZON = vec3(0.60, 0.68, 0.74);
+const vec3 ZENITH = vec3(0.10, 0.22, 0.40);
+const vec3 FLOOR = vec3(0.36, 0.365, 0.37);
 const vec3 SUN = vec3(1.0, 0.93, 0.80);
 
 vec3 sky(vec3 direction) {
@@ -31,15 +31,16 @@ vec3 sky(vec3 direction) {
 
 // The sun's disc, softened; seen in mirrors only.
 vec3 sun_glint(vec3 direction) {
+  if (u_plain == 1) return vec3(0.0);
   float off = 1.0 - dot(direction, u_sun);
   return SUN * (9.0 * exp(-off * 900.0) + 0.6 * exp(-off * 60.0));
 }
 
-// Share of a line of half width w around x = 0 in [x - f, x + f], lines repeating with period 1.
+// Share of lines of half width w, repeating with period 1, in [x - f, x + f].
 float line_cover(float x, float w, float f) {
-  float distance_to_line = abs(x - floor(x + 0.5));
-  float cover = clamp((w + f - distance_to_line) / (2.0 * f), 0.0, 1.0) * min(w / f, 1.0);
-  return mix(cover, 2.0 * w, smoothstep(0.15, 0.5, f));
+  float off = abs(x - floor(x + 0.5));
+  float cover = clamp(min(w + f - off, 2.0 * min(w, f)), 0.0, 1.0) / (2.0 * f);
+  return mix(cover, 2.0 * w, smoothstep(0.1, 0.5, f));
 }
 
 // How much of the sky the tank's foot leaves to a point of the floor.
@@ -54,29 +55,45 @@ float contact_shadow(vec2 p) {
   return 1.0 - 0.38 * fade * fade;
 }
 
-vec3 floor_color(vec3 point, float footprint) {
+// @param reach  half of a pixel's extent on the floor along u_floor_x and u_floor_y [m]
+vec3 floor_color(vec3 point, vec2 reach) {
   vec2 p = vec2(dot(point, u_floor_x), dot(point, u_floor_y));
-  vec2 tile = p / u_tile;
-  float f = max(0.5 * footprint / u_tile, 1e-4);
-  float lines = max(line_cover(tile.x, 0.012, f), line_cover(tile.y, 0.012, f));
-  vec3 color = FLOOR * (1.0 - 0.22 * lines);
+  vec2 f = max(reach / u_tile, 1e-3);
+  float lines = max(line_cover(p.x / u_tile, 0.010, f.x), line_cover(p.y / u_tile, 0.010, f.y));
+  vec3 color = FLOOR * (1.0 - 0.35 * lines);
   return u_has_tank == 1 ? color * contact_shadow(p) : color;
+}
+
+float height_above_floor(vec3 point) { return dot(point, u_up) - u_floor_height; }
+bool is_below_floor(vec3 point) {
+  return u_has_floor == 1 && height_above_floor(point) < 0.0 && height_above_floor(u_eye) > 0.0;
+}
+float distance_to_floor(vec3 point, vec3 direction) {
+  float down = -dot(direction, u_up);
+  return u_has_floor == 1 && down > 1e-4 ? max(height_above_floor(point), 0.0) / down : 1e9;
 }
 
 // Color that comes against a direction (unit vector) to a point.
 // @param travelled  length of the path from the eye to the point [m]
-vec3 environment(vec3 point, vec3 direction, float travelled) {
+// @param spread     how much wider than a pixel the bundle of rays is, behind a curved surface
+vec3 environment(vec3 point, vec3 direction, float travelled, float spread) {
   vec3 above = sky(direction);
-  if (u_has_floor == 0) return above;
+  float way = distance_to_floor(point, direction);
+  if (way > 1e8 || height_above_floor(u_eye) < 0.0) return above;
   float down = -dot(direction, u_up);
-  float height = dot(point, u_up) - u_floor_height;
-  if (down < 1e-4 || height < -1e-3 * u_tile) return above;
-  float way = max(height, 0.0) / down;
-  vec3 hit = point + way * direction;
-  // A pixel's footprint on the floor, long where the floor is seen from the side.
-  float footprint = u_pixel_angle * (u_size.z > 0.5 ? travelled + way : 1.0) / max(down, 0.05);
-  vec3 color = floor_color(hit, footprint);
-  vec3 horizon = u_plain == 1 ? u_plain_color : HORIZON;
-  float far = 1.0 - exp(-(travelled + way) / (40.0 * u_tile));
-  return mix(color, horizon, far * smoothstep(0.35, 0.0, down));
+  // A pixel on the floor: long along the ray where it comes in flat.
+  float wide = 0.7 * spread / pixels_per_meter(travelled + way);
+  vec2 flat_direction = vec2(dot(direction, u_floor_x), dot(direction, u_floor_y));
+  flat_direction = abs(flat_direction) / max(length(flat_direction), 1e-6);
+  vec2 reach = wide * (flat_direction / max(down, 0.01) + flat_direction.yx);
+  vec3 color = floor_color(point + way * direction, reach);
+  float far = 1.0 - exp(-(travelled + way) / (30.0 * u_tile));
+  return mix(color, u_plain == 1 ? u_plain_color : HORIZON, far * smoothstep(0.45, 0.0, down));
+}
+
+vec3 to_world(vec3 v) { return transpose(mat3(u_view)) * v; }
+
+// What a viewing ray (eye space) meets if there is no fluid.
+vec3 seen(vec3 origin, vec3 direction) {
+  return environment(u_eye + to_world(origin), to_world(direction), 0.0, 1.0);
 }

@@ -50,7 +50,6 @@ struct FluidRenderer::Passes {
         thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
   Sprites sprites;
-  VertexArray no_vertices;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
   DepthSmooth depth_smooth{glsl_source};
@@ -76,7 +75,8 @@ struct FluidRenderer::Targets {
         depth_smooth(w, h, Format::r32f),
         thickness_smooth(w, h, Format::r32f),
         normal(w, h, Format::rgba32f),
-        color(w, h, Format::rgba8) {}
+        color(w, h, Format::rgba8),
+        tiles(w, h) {}
   Target depth, thickness;            ///< affine depth; [m]
   Framebuffer depth_and_thickness;    ///< both of these at once
   Target between;                     ///< a filter's first half
@@ -84,6 +84,7 @@ struct FluidRenderer::Targets {
   Target thickness_smooth;            ///< [m]
   Target normal;                      ///< eye space
   Target color;                       ///< sRGB
+  FluidTiles tiles;                   ///< where any of these can hold fluid
 };
 
 FluidRenderer::FluidRenderer(int width, int height)
@@ -128,6 +129,7 @@ Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const Re
     pass.frame.upload(&frame, sizeof frame);
     pass.frame.bind_base(0);
     pass.sprites.upload(positions);
+    to.tiles.find(positions, camera, params.radius);
   });
   if (pass.thickness == nullptr) {
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth_and_thickness); });
@@ -135,11 +137,10 @@ Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const Re
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth.framebuffer); });
     stage("thickness", [&] { (*pass.thickness)(pass.sprites, params, to.thickness.framebuffer); });
   }
-  pass.no_vertices.bind();
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
     for (int k = 0; k < params.smoothing_iterations; ++k) {
-      pass.depth_smooth(*depth, params, to.between.framebuffer, to.between.texture,
+      pass.depth_smooth(to.tiles, *depth, params, to.between.framebuffer, to.between.texture,
                         to.depth_smooth.framebuffer);
       depth = &to.depth_smooth.texture;
     }
@@ -147,13 +148,13 @@ Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const Re
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
     for (int k = 0; k < params.thickness_iterations; ++k) {
-      pass.thickness_smooth(*thickness, to.depth.texture, params, to.between.framebuffer,
+      pass.thickness_smooth(to.tiles, *thickness, to.depth.texture, params, to.between.framebuffer,
                             to.between.texture, to.thickness_smooth.framebuffer);
       thickness = &to.thickness_smooth.texture;
     }
   });
-  stage("normal", [&] { pass.normal(*depth, to.normal.framebuffer); });
-  return {*depth, *thickness, to.normal.texture};
+  stage("normal", [&] { pass.normal(to.tiles, *depth, to.normal.framebuffer); });
+  return {to.tiles, *depth, *thickness, to.normal.texture};
 }
 
 Image FluidRenderer::render(PointsView positions, const Camera& camera, const RenderParams& params) {

@@ -47,9 +47,9 @@ struct RenderParams {
 
   // What the optional fields stand for when not given.
   [[nodiscard]] Real volume_in_force() const;                 ///< [m³]
-  [[nodiscard]] Real smoothing_radius_in_force() const { return smoothing_radius.value_or(3.0F * radius); }
+  [[nodiscard]] Real smoothing_radius_in_force() const { return smoothing_radius.value_or(2.5F * radius); }
   [[nodiscard]] Real smoothing_range_in_force() const { return smoothing_range.value_or(4.0F * radius); }
-  [[nodiscard]] Real thickness_radius_in_force() const { return thickness_radius.value_or(3.0F * radius); }
+  [[nodiscard]] Real thickness_radius_in_force() const { return thickness_radius.value_or(2.0F * radius); }
   [[nodiscard]] Real thickness_range_in_force() const { return thickness_range.value_or(4.0F * radius); }
 
   static constexpr const char* kName = "RenderParams";
@@ -65,7 +65,7 @@ struct RenderParams {
               "bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in "
               "front of what is behind it; gaussian melts them together."},
         Field{"smoothing_radius", &P::smoothing_radius, "m", inside(0, 1e6),
-              "Where the depth filter's kernel ends, 3 * radius if not given; its standard deviation is half "
+              "Where the depth filter's kernel ends, 2.5 * radius if not given; its standard deviation is half "
               "of that. Larger is smoother and rounder."},
         Field{"smoothing_range", &P::smoothing_range, "m", inside(0, 1e6),
               "Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not given."},
@@ -74,7 +74,7 @@ struct RenderParams {
         Field{"thickness_smoothing", &P::thickness_smoothing, "", anything(),
               "As smoothing, for the thickness."},
         Field{"thickness_radius", &P::thickness_radius, "m", inside(0, 1e6),
-              "As smoothing_radius, for the thickness."},
+              "As smoothing_radius, for the thickness; 2 * radius if not given."},
         Field{"thickness_range", &P::thickness_range, "m", inside(0, 1e6),
               "As smoothing_range, for the thickness."},
         Field{"thickness_iterations", &P::thickness_iterations, "", between(0, 16),

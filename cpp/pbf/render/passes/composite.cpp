@@ -46,10 +46,14 @@ void set_environment(const Program& program, const Camera& camera, const RenderP
 }  // namespace
 
 Composite::Composite(const GlslSource& source)
-    : program_(source,
-               {.vertex = {"fullscreen.vert"},
-                .fragment = {"frame.glsl", "environment.glsl", "composite.frag"},
-                .defines = {}}),
+    : background_(source,
+                  {.vertex = {"fullscreen.vert"},
+                   .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "background.frag"},
+                   .defines = {}}),
+      fluid_(source,
+             {.vertex = {"frame.glsl", "fluid_tiles.vert"},
+              .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "composite.frag"},
+              .defines = {}}),
       tank_edges_(source,
                   {.vertex = {"frame.glsl", "tank_edges.vert"},
                    .fragment = {"frame.glsl", "tank_edges.frag"},
@@ -63,15 +67,19 @@ void Composite::operator()(const Surface& surface,
   surface.thickness.bind(1);
   surface.normal.bind(2);
   out.bind();
-  program_.use();
-  program_.set("u_depth", 0);
-  program_.set("u_thickness", 1);
-  program_.set("u_normal", 2);
-  program_.set("u_absorption", params.absorption);
-  program_.set("u_scatter", params.scatter);
-  program_.set("u_refractive_index", params.refractive_index);
-  set_environment(program_, camera, params);
+  background_.use();
+  set_environment(background_, camera, params);
+  no_vertices_.bind();
   draw_fullscreen();
+  fluid_.use();
+  set_environment(fluid_, camera, params);
+  fluid_.set("u_depth", 0);
+  fluid_.set("u_thickness", 1);
+  fluid_.set("u_normal", 2);
+  fluid_.set("u_absorption", params.absorption);
+  fluid_.set("u_scatter", params.scatter);
+  fluid_.set("u_refractive_index", params.refractive_index);
+  surface.tiles.draw();
   if (!params.tank_lower) return;
   tank_edges_.use();
   tank_edges_.set("u_depth", 0);
@@ -80,6 +88,7 @@ void Composite::operator()(const Surface& surface,
   tank_edges_.set("u_tank_lower", *params.tank_lower);
   tank_edges_.set("u_tank_upper", *params.tank_upper);
   tank_edges_.set("u_half_width", kEdgeHalfWidth);
+  no_vertices_.bind();
   set_draw_state(Blend::over);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 12);
 }

@@ -4,11 +4,13 @@
 #include "pbf/gl/program.hpp"
 #include "pbf/render/camera.hpp"
 #include "pbf/render/params.hpp"
+#include "pbf/render/passes/fluid_tiles.hpp"
 
 namespace pbf {
 
 /// What composite draws from: smoothed affine depth, smoothed thickness [m], normal in eye space.
 struct Surface {
+  const FluidTiles& tiles;
   const Texture& depth;
   const Texture& thickness;
   const Texture& normal;
@@ -27,8 +29,10 @@ class Composite {
                   const Framebuffer& out) const;
 
  private:
-  Program program_;
+  Program background_;
+  Program fluid_;
   Program tank_edges_;
+  VertexArray no_vertices_;
 };
 
 }  // namespace pbf

@@ -1,16 +1,17 @@
 #include "pbf/render/passes/depth_smooth.hpp"
 
-#include "pbf/gl/draw.hpp"
+#include "pbf/render/passes/sphere_depth.hpp"
 
 namespace pbf {
 
 DepthSmooth::DepthSmooth(const GlslSource& source)
     : program_(source,
-               {.vertex = {"fullscreen.vert"},
+               {.vertex = {"frame.glsl", "fluid_tiles.vert"},
                 .fragment = {"frame.glsl", "smooth.glsl", "depth_smooth.frag"},
                 .defines = {}}) {}
 
-void DepthSmooth::operator()(const Texture& depth,
+void DepthSmooth::operator()(const FluidTiles& tiles,
+                             const Texture& depth,
                              const RenderParams& params,
                              const Framebuffer& between,
                              const Texture& between_texture,
@@ -22,13 +23,13 @@ void DepthSmooth::operator()(const Texture& depth,
   program_.set("u_radius", params.smoothing_radius_in_force());
   program_.set("u_range", params.smoothing_range_in_force());
   depth.bind(0);
-  between.bind();
+  between.clear(0, {kNothing, 0, 0, 0});
   program_.set("u_axis", 1, 0);
-  draw_fullscreen();
+  tiles.draw();
   between_texture.bind(0);
-  out.bind();
+  out.clear(0, {kNothing, 0, 0, 0});
   program_.set("u_axis", 0, 1);
-  draw_fullscreen();
+  tiles.draw();
 }
 
 }  // namespace pbf

@@ -3,6 +3,7 @@
 #include "pbf/gl/framebuffer.hpp"
 #include "pbf/gl/program.hpp"
 #include "pbf/render/params.hpp"
+#include "pbf/render/passes/fluid_tiles.hpp"
 
 namespace pbf {
 
@@ -12,7 +13,8 @@ class DepthSmooth {
  public:
   explicit DepthSmooth(const GlslSource& source);
   /// One iteration. @param between, out  r32f targets; `between_texture` is what `between` draws into.
-  void operator()(const Texture& depth,
+  void operator()(const FluidTiles& tiles,
+                  const Texture& depth,
                   const RenderParams& params,
                   const Framebuffer& between,
                   const Texture& between_texture,

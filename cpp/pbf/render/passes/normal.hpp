@@ -2,6 +2,7 @@
 
 #include "pbf/gl/framebuffer.hpp"
 #include "pbf/gl/program.hpp"
+#include "pbf/render/passes/fluid_tiles.hpp"
 
 namespace pbf {
 
@@ -11,7 +12,7 @@ class Normal {
  public:
   explicit Normal(const GlslSource& source);
   /// @param depth  affine depth   @param out  rgba32f: unit normal, 0 where there is no fluid
-  void operator()(const Texture& depth, const Framebuffer& out) const;
+  void operator()(const FluidTiles& tiles, const Texture& depth, const Framebuffer& out) const;
 
  private:
   Program program_;

@@ -1,16 +1,15 @@
 #include "pbf/render/passes/thickness_smooth.hpp"
 
-#include "pbf/gl/draw.hpp"
-
 namespace pbf {
 
 ThicknessSmooth::ThicknessSmooth(const GlslSource& source)
     : program_(source,
-               {.vertex = {"fullscreen.vert"},
+               {.vertex = {"frame.glsl", "fluid_tiles.vert"},
                 .fragment = {"frame.glsl", "smooth.glsl", "thickness_smooth.frag"},
                 .defines = {}}) {}
 
-void ThicknessSmooth::operator()(const Texture& thickness,
+void ThicknessSmooth::operator()(const FluidTiles& tiles,
+                             const Texture& thickness,
                              const Texture& depth,
                              const RenderParams& params,
                              const Framebuffer& between,
@@ -25,13 +24,13 @@ void ThicknessSmooth::operator()(const Texture& thickness,
   program_.set("u_range", params.thickness_range_in_force());
   depth.bind(1);
   thickness.bind(0);
-  between.bind();
+  between.clear(0, {0, 0, 0, 0});
   program_.set("u_axis", 1, 0);
-  draw_fullscreen();
+  tiles.draw();
   between_texture.bind(0);
-  out.bind();
+  out.clear(0, {0, 0, 0, 0});
   program_.set("u_axis", 0, 1);
-  draw_fullscreen();
+  tiles.draw();
 }
 
 }  // namespace pbf
