@@ -6,6 +6,7 @@ uniform sampler2D u_normal;
 uniform vec3 u_absorption;         // [1/m]
 uniform vec3 u_scatter;            // color of deep fluid
 uniform float u_refractive_index;
+uniform float u_sprite_thickness;  // mean thickness of a single sprite [m]
 layout(location = 0) out vec4 o_color;
 
 // Share of unpolarized light that a smooth dielectric mirrors (Fresnel); c is the cosine of incidence.
@@ -63,6 +64,8 @@ void main() {
   if (is_below_floor(u_eye + to_world(p))) share = 0.0;
   vec3 n = texelFetch(u_normal, pixel, 0).xyz;
   float thickness = texelFetch(u_thickness, pixel, 0).r;
+  // Where a lone sprite thins out there is less than a particle: fading it takes the beads off the outline.
+  share *= smoothstep(0.1, 0.8, thickness / u_sprite_thickness);
   vec3 color = seen(ray_origin(gl_FragCoord.xy), view);
   o_color = display(share > 0.0 ? mix(color, fluid_color(p, view, n, thickness), share) : color);
 }

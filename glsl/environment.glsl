@@ -15,9 +15,9 @@ uniform vec3 u_eye;             // world space [m]
 uniform vec3 u_floor_x;         // unit vectors along the floor
 uniform vec3 u_floor_y;
 
-const vec3 HORIZON = vec3(0.60, 0.68, 0.74);
-const vec3 ZENITH = vec3(0.10, 0.22, 0.40);
-const vec3 FLOOR = vec3(0.36, 0.365, 0.37);
+const vec3 HORIZON = vec3(0.66, 0.73, 0.79);
+const vec3 ZENITH = vec3(0.08, 0.20, 0.42);
+const vec3 FLOOR = vec3(0.50, 0.50, 0.50);
 const vec3 SUN = vec3(1.0, 0.93, 0.80);
 
 vec3 sky(vec3 direction) {
@@ -33,7 +33,7 @@ vec3 sky(vec3 direction) {
 vec3 sun_glint(vec3 direction) {
   if (u_plain == 1) return vec3(0.0);
   float off = 1.0 - dot(direction, u_sun);
-  return SUN * (9.0 * exp(-off * 900.0) + 0.6 * exp(-off * 60.0));
+  return SUN * (14.0 * exp(-off * 700.0) + 1.5 * exp(-off * 30.0));
 }
 
 // Share of lines of half width w, repeating with period 1, in [x - f, x + f].

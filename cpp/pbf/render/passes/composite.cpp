@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <numbers>
+
 namespace pbf {
 namespace {
 
@@ -79,6 +81,8 @@ void Composite::operator()(const Surface& surface,
   fluid_.set("u_absorption", params.absorption);
   fluid_.set("u_scatter", params.scatter);
   fluid_.set("u_refractive_index", params.refractive_index);
+  const Real disc = std::numbers::pi_v<Real> * params.radius * params.radius;
+  fluid_.set("u_sprite_thickness", params.volume_in_force() / disc);
   surface.tiles.draw();
   if (!params.tank_lower) return;
   tank_edges_.use();

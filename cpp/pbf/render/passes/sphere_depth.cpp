@@ -1,13 +1,11 @@
 #include "pbf/render/passes/sphere_depth.hpp"
 
-#include <numbers>
-
 namespace pbf {
 
 float volume_share(const RenderParams& params) {
-  const double R = params.radius;
-  const double sphere = 4.0 / 3.0 * std::numbers::pi * R * R * R;
-  return static_cast<float>(params.particle_volume.value_or(static_cast<Real>(sphere)) / sphere);
+  RenderParams sprite = params;
+  sprite.particle_volume.reset();
+  return params.volume_in_force() / sprite.volume_in_force();
 }
 
 SphereDepth::SphereDepth(const GlslSource& source, bool with_thickness)
