@@ -158,6 +158,15 @@ def test_boundary_particles_stand_half_a_spacing_outside_and_fill_the_support_ra
     np.testing.assert_allclose(depths, [0.5, 1.5, 2.5])
 
 
+def test_the_centers_of_particles_keep_their_radius_from_the_walls() -> None:
+    box = ref.Box(np.zeros(3), np.array([1.0, 2.0, 3.0]))
+    inner = ref.centers(fluid_of(), box)
+    assert inner is not None
+    np.testing.assert_allclose(inner.lower, np.full(3, D / 2))
+    np.testing.assert_allclose(inner.upper, np.array([1.0, 2.0, 3.0]) - D / 2)
+    assert ref.centers(fluid_of(), None) is None
+
+
 def test_projection_goes_to_the_nearest_point_of_the_closed_box() -> None:
     box = ref.Box(np.zeros(3), np.array([1.0, 2.0, 3.0]))
     x = np.array([[-1.0, 1.0, 4.0], [0.5, 2.5, 1.0], [1.0, 2.0, 0.0], [0.2, 0.3, 0.4]])
