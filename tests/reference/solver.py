@@ -105,14 +105,14 @@ def confine(
 ) -> Array:
     """v_i <- v_i + dt strength (N x omega_i),  N = eta/|eta|,  eta_i = V sum_j |omega_j| grad W_ij.
 
-    N is 0 where eta is no more than rounding: |eta| h <= 1e-6 |omega_i|.
+    N is 0 where eta is no more than rounding: |eta| h <= 1e-4 |omega_i|.
     """
     volume, _ = calibration(fluid)
     _, grad_W = kernel(fluid, x[near.i] - x[near.j])
     size = np.linalg.norm(omega, axis=1)
     eta = volume * near.sum(size[near.j, None] * grad_W)
     eta_size = np.linalg.norm(eta, axis=1)
-    told = eta_size * fluid.h > 1e-6 * size
+    told = eta_size * fluid.h > 1e-4 * size
     N = np.where(told[:, None], eta / np.where(told, eta_size, 1.0)[:, None], 0.0)
     return v + dt * strength * np.cross(N, omega)
 

@@ -36,7 +36,7 @@ void confine_vorticity(const Neighborhood& near,
       const Vec3 eta = disc.V * sum;
       const Vec3 omega_i = omega.col(i);
       const Real length = eta.norm();
-      if (length * disc.h <= Real(1e-6) * omega_i.norm()) return;
+      if (length * disc.h <= Real(1e-4) * omega_i.norm()) return;
       v.col(i) += dt * strength * (eta / length).cross(omega_i);
     });
   });

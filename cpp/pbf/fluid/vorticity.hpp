@@ -8,7 +8,7 @@ namespace pbf {
 ///   ω_i = V Σ_j (v_j − v_i) × ∇_j W(x_i − x_j)       the curl of field_operators.hpp   [1/s]
 ///   η_i = V Σ_j ‖ω_j‖ ∇W_ij ,   N = η/‖η‖            points where ‖ω‖ grows            [1/(m s)]
 ///   v_i ← v_i + dt · strength · (N × ω_i)            strength in m/s                   [m/s]
-/// N = 0 where ‖η‖ h ≤ 1e-6 ‖ω_i‖: a direction out of rounding errors would push at random.
+/// N = 0 where ‖η‖ h ≤ 1e-4 ‖ω_i‖: a direction out of rounding errors would push at random.
 
 void compute_vorticity(const Neighborhood& near,
                        const Discretization& disc,
