@@ -12,8 +12,9 @@ laplacian  2 V Σ_j (A_i − A_j) (r_ij · ∇W_ij) / (‖r_ij‖² + 0.01 h²),
 density    ρ0 V Σ_j W_ij, the particle itself included
 =========  ===================================================================================
 
-Constants are differentiated exactly, to zero. ``corrected=True``, the default, multiplies gradients with the
-inverse of V Σ (x_j − x_i) ⊗ ∇W, which makes linear fields exact too, at free surfaces as well.
+Constants are differentiated exactly, to zero. ``corrected=True``, the default, multiplies gradients
+with the inverse of V Σ (x_j − x_i) ⊗ ∇W, which makes linear fields exact too, at free surfaces as
+well.
 
 Parameters common to all:
 
