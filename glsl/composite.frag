@@ -32,7 +32,7 @@ vec3 fluid_color(vec3 p, vec3 view, vec3 n, float thickness) {
   float eta = 1.0 / u_refractive_index;
   vec3 once = to_world(refract(view, n, eta));
   vec3 twice = to_world(refract(view, n, eta * eta));
-  float beyond = smoothstep(1.0, 2.5, distance_to_floor(position, once) / max(thickness, 1e-4 * u_tile));
+  float beyond = smoothstep(2.0, 6.0, distance_to_floor(position, once) / max(thickness, 1e-4 * u_tile));
   vec3 behind = environment(position, normalize(mix(once, twice, beyond)), -p.z, 3.0);
   vec3 left = transmittance(thickness);
   float lit = 0.55 + 0.45 * dot(to_world(n), u_sun);

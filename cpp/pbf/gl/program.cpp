@@ -37,18 +37,25 @@ std::string info_log(GLuint name, Get get, GetLog get_log) {
   return log;
 }
 
-/// Drivers write file and line as `0:23(5): …` (Mesa), `0(23) : …` (NVIDIA) or `ERROR: 0:23: …`.
+/// File k of a stage has the lines from k * kFileLines on: `#line` could number files as well, but Mesa
+/// loses that number.
+constexpr int kFileLines = 10'000;
+
+/// Drivers write a line as `0:23(5): …` (Mesa), `0(23) : …` (NVIDIA) or `ERROR: 0:23: …`.
 std::string located(const std::string& log,
                     const std::vector<std::string>& names,
                     const std::vector<std::string>& texts) {
-  static const std::regex place(R"((\d+)(?::(\d+)|\((\d+)\)))");
+  static const std::regex place(R"(\b\d+(?::(\d+)|\((\d+)\)))");
   std::smatch match;
   if (!std::regex_search(log, match, place)) return names.back() + ": " + log;
-  const auto file = static_cast<std::size_t>(std::stoul(match[1]));
-  const int line = std::stoi(match[2].matched ? match[2] : match[3]);
+  const int number = std::stoi(match[1].matched ? match[1] : match[2]);
+  const auto file = static_cast<std::size_t>(number / kFileLines);
+  const int line = number % kFileLines;
   if (file >= names.size()) return names.back() + ": " + log;
+  const std::string readable =
+      std::regex_replace(log, std::regex("\\b" + std::to_string(number) + "\\b"), std::to_string(line));
   return names[file] + ":" + std::to_string(line) + ": does not compile\n  " + std::to_string(line) +
-         " | " + nth_line(texts[file], line) + "\n" + log;
+         " | " + nth_line(texts[file], line) + "\n" + readable;
 }
 
 void compile(const ShaderObject& shader,
@@ -59,8 +66,9 @@ void compile(const ShaderObject& shader,
   for (const std::string& define : defines) text += "#define " + define + "\n";
   std::vector<std::string> texts;
   for (const std::string& name : names) {
+    text += "#line " + std::to_string(static_cast<int>(texts.size()) * kFileLines + 1) + "\n";
     texts.push_back(source(name));
-    text += "#line 1 " + std::to_string(texts.size() - 1) + "\n" + texts.back() + "\n";
+    text += texts.back() + "\n";
   }
   const char* pointer = text.c_str();
   glShaderSource(shader.name(), 1, &pointer, nullptr);

@@ -33,6 +33,15 @@ void require_drawable(int width, int height) {
   }
 }
 
+void require_finite(PointsView positions) {
+  for (Index i = 0; i < positions.cols(); ++i) {
+    if (!positions.col(i).allFinite()) {
+      throw InvalidParameter("positions: particle " + std::to_string(i) +
+                             " is not finite; every coordinate must be");
+    }
+  }
+}
+
 void require_no_gl_error() {
   if (const GLenum error = glGetError(); error == GL_OUT_OF_MEMORY) {
     throw std::bad_alloc();
@@ -160,6 +169,7 @@ Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const Re
 Image FluidRenderer::render(PointsView positions, const Camera& camera, const RenderParams& params) {
   validate(camera);
   validate(params);
+  require_finite(positions);
   const auto current = context_.make_current();
   const Surface surface = draw(positions, camera, params);
   stage("composite",
@@ -173,6 +183,7 @@ Image FluidRenderer::render(PointsView positions, const Camera& camera, const Re
 Layers FluidRenderer::layers(PointsView positions, const Camera& camera, const RenderParams& params) {
   validate(camera);
   validate(params);
+  require_finite(positions);
   const auto current = context_.make_current();
   const Surface surface = draw(positions, camera, params);
   Layers layers;

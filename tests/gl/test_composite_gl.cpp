@@ -1,0 +1,78 @@
+#include "pbf/render/passes/composite.hpp"
+
+#include "gl_fixture.hpp"
+
+#include <cmath>
+
+using namespace pbf;
+using namespace pbf::test;
+
+namespace {
+
+/// What a camera that looks straight at, or along, a wall of fluid sees of one gray background: linear red,
+/// green, blue of the middle pixel.
+std::array<double, 3> seen(const RenderParams& params, double thickness, const Vec3& normal) {
+  const Camera camera = GlFixture::looking_down_z();
+  const GlFixture gl(65, 65, camera);
+  const Texture depth = gl.texture([](int, int) { return 0.5; });
+  const Texture thick = gl.texture([&](int, int) { return thickness; });
+  std::vector<float> data;
+  for (int k = 0; k < 65 * 65; ++k) {
+    data.insert(data.end(), {normal.x(), normal.y(), normal.z(), 0});
+  }
+  const Texture normals(65, 65, Format::rgba32f, data.data());
+  const Texture color(65, 65, Format::rgba8);
+  const Framebuffer out({&color});
+  const Composite pass(glsl_source);
+  pass({gl.tiles(), depth, thick, normals}, camera, params, out);
+  std::vector<std::uint8_t> pixels(65 * 65 * 4);
+  out.read(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  std::array<double, 3> linear{};
+  for (int k = 0; k < 3; ++k) {
+    const double v = pixels[4 * gl.at(32, 32) + k] / 255.0;
+    linear[k] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  }
+  CHECK(pixels[4 * gl.at(32, 32) + 3] == 255);
+  return linear;
+}
+
+RenderParams plain() {
+  RenderParams params;
+  params.background = Background::plain;
+  params.background_color = {0.7F, 0.7F, 0.7F};
+  params.floor = false;
+  params.scatter = {0, 0, 0};
+  return params;
+}
+
+}  // namespace
+
+TEST_CASE("composite: light is absorbed by exp(-absorption * thickness) in each channel") {
+  RenderParams params = plain();
+  params.refractive_index = 1;  // no mirror
+  params.absorption = {3.0F, 1.0F, 0.0F};
+  for (const double thickness : {0.1, 0.5, 1.0}) {
+    const auto color = seen(params, thickness, {0, 0, 1});
+    for (int k = 0; k < 3; ++k) {
+      const double expected = 0.7 * std::exp(-params.absorption[k] * thickness);
+      CHECK(color[k] == doctest::Approx(expected).epsilon(0.02));  // 8 bits
+    }
+  }
+}
+
+TEST_CASE("composite: fluid that absorbs all mirrors by Fresnel: 2 % head on, all at grazing") {
+  RenderParams params = plain();
+  params.background_color = {0.8F, 0.8F, 0.8F};
+  params.absorption = {1e6F, 1e6F, 1e6F};
+  const double head_on = std::pow((1.333 - 1) / (1.333 + 1), 2);
+  CHECK(seen(params, 1, {0, 0, 1})[0] / 0.8 == doctest::Approx(head_on).epsilon(0.1));
+  const Vec3 grazing = Vec3(1, 0, 1e-3F).normalized();
+  CHECK(seen(params, 1, grazing)[0] / 0.8 > 0.97);
+  // 60 degrees: the mean of both polarizations.
+  const double c = 0.5;
+  const double t = std::sqrt(1 - 0.75 / (1.333 * 1.333));
+  const double s = (c - 1.333 * t) / (c + 1.333 * t);
+  const double p = (1.333 * c - t) / (1.333 * c + t);
+  const Vec3 tilted(std::sqrt(0.75F), 0, 0.5F);
+  CHECK(seen(params, 1, tilted)[0] / 0.8 == doctest::Approx((s * s + p * p) / 2).epsilon(0.05));
+}
