@@ -26,7 +26,7 @@ vec3 fluid_color(vec3 p, vec3 view, vec3 n, float thickness) {
   float cosine = clamp(-dot(view, n), 0.0, 1.0);
   float mirrored = fresnel(cosine, u_refractive_index);
   vec3 mirror = to_world(reflect(view, n));
-  vec3 reflection = environment(position, mirror, -p.z, 3.0) + sun_glint(mirror);
+  vec3 reflection = environment(position, mirror, -p.z, 3.0) + lights(mirror);
   // Through: bent at the surface, and on to the floor; or out behind the fluid, where a drop's far side bends
   // the ray once more by as much.
   float eta = 1.0 / u_refractive_index;
@@ -35,7 +35,8 @@ vec3 fluid_color(vec3 p, vec3 view, vec3 n, float thickness) {
   float beyond = smoothstep(2.0, 6.0, distance_to_floor(position, once) / max(thickness, 1e-4 * u_tile));
   vec3 behind = environment(position, normalize(mix(once, twice, beyond)), -p.z, 3.0);
   vec3 left = transmittance(thickness);
-  float lit = 0.55 + 0.45 * dot(to_world(n), u_sun);
+  vec3 up_facing = to_world(n);
+  float lit = 0.60 + 0.25 * dot(up_facing, u_up) + 0.35 * dot(up_facing, u_sun);
   vec3 through = behind * left + u_scatter * lit * (1.0 - left);
   return mix(through, reflection, mirrored);
 }

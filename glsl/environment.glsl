@@ -29,11 +29,14 @@ vec3 sky(vec3 direction) {
   return color + SUN * (0.25 * glow8);
 }
 
-// The sun's disc, softened; seen in mirrors only.
-vec3 sun_glint(vec3 direction) {
+// Lights that only mirrors show: the sun's disc, softened, and a bright band of sky all around, which draws
+// waves as a studio's soft boxes draw glass.
+vec3 lights(vec3 direction) {
   if (u_plain == 1) return vec3(0.0);
   float off = 1.0 - dot(direction, u_sun);
-  return SUN * (14.0 * exp(-off * 700.0) + 1.5 * exp(-off * 30.0));
+  float elevation = dot(direction, u_up);
+  float band = smoothstep(0.02, 0.45, elevation) * (1.0 - 0.6 * smoothstep(0.5, 0.9, elevation));
+  return SUN * (60.0 * exp(-off * 700.0) + 5.0 * exp(-off * 40.0)) + vec3(1.1, 1.25, 1.4) * 1.6 * band;
 }
 
 // Share of lines of half width w, repeating with period 1, in [x - f, x + f].

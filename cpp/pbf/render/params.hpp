@@ -32,8 +32,8 @@ struct RenderParams {
   std::optional<Real> thickness_radius;
   std::optional<Real> thickness_range;
   int thickness_iterations = 1;
-  Vec3 absorption{4.0F, 1.2F, 0.6F};
-  Vec3 scatter{0.01F, 0.07F, 0.09F};
+  Vec3 absorption{7.0F, 2.0F, 1.0F};
+  Vec3 scatter{0.015F, 0.12F, 0.19F};
   Real refractive_index = 1.333F;
   Background background = Background::sky;
   Vec3 background_color{1.0F, 1.0F, 1.0F};
@@ -47,7 +47,7 @@ struct RenderParams {
 
   // What the optional fields stand for when not given.
   [[nodiscard]] Real volume_in_force() const;                 ///< [m³]
-  [[nodiscard]] Real smoothing_radius_in_force() const { return smoothing_radius.value_or(2.5F * radius); }
+  [[nodiscard]] Real smoothing_radius_in_force() const { return smoothing_radius.value_or(2.0F * radius); }
   [[nodiscard]] Real smoothing_range_in_force() const { return smoothing_range.value_or(4.0F * radius); }
   [[nodiscard]] Real thickness_radius_in_force() const { return thickness_radius.value_or(2.0F * radius); }
   [[nodiscard]] Real thickness_range_in_force() const { return thickness_range.value_or(4.0F * radius); }
@@ -65,7 +65,7 @@ struct RenderParams {
               "bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in "
               "front of what is behind it; gaussian melts them together."},
         Field{"smoothing_radius", &P::smoothing_radius, "m", inside(0, 1e6),
-              "Where the depth filter's kernel ends, 2.5 * radius if not given; its standard deviation is half "
+              "Where the depth filter's kernel ends, 2 * radius if not given; its standard deviation is half "
               "of that. Larger is smoother and rounder."},
         Field{"smoothing_range", &P::smoothing_range, "m", inside(0, 1e6),
               "Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not given."},
