@@ -9,13 +9,14 @@ vec3 position(ivec2 pixel, out bool exists) {
   return eye_position(vec2(pixel) + 0.5, depth_of(exists ? a : affine_depth(1.0)));
 }
 
-// Tangent along an axis from differences of positions to both sides. Each is weighted by 1/dz^4: both are
-// tangent to a plane, so the normal of a plane is exact, and at a silhouette the smaller step wins.
+// Tangent along an axis from differences of positions to both sides, each weighted by 1/(dz^2 + pixel^2)^2. Both
+// are tangent to a plane, so the normal of a plane is exact; on a gentle slope they count the same, which is
+// the central difference; at a silhouette the smaller step wins.
 vec3 tangent(ivec2 pixel, ivec2 axis, vec3 p, float width) {
   bool has_next, has_previous;
   vec3 next = position(pixel + axis, has_next) - p;
   vec3 previous = p - position(pixel - axis, has_previous);
-  float floor2 = 0.01 * width * width;
+  float floor2 = width * width;
   float w_next = has_next ? 1.0 / (next.z * next.z + floor2) : 0.0;
   float w_previous = has_previous ? 1.0 / (previous.z * previous.z + floor2) : 0.0;
   // Alone: the surface faces the viewer.

@@ -1,0 +1,417 @@
+"""The renderer from Python: closed forms of the layers, its life, and what it refuses."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pbfluids as pbf
+from pbfluids import errors
+
+pytestmark = pytest.mark.gl
+
+GLSL = Path(__file__).parents[2] / "glsl"
+ALONG_Z = {"eye": (0, 0, 0), "target": (0, 0, -1)}
+
+
+@pytest.fixture(scope="module")
+def renderer():
+    with pbf.Renderer(160, 120) as made:
+        yield made
+
+
+def rays(camera, width=160, height=120):
+    """Slopes x/depth, y/depth of the pixels' rays; row 0 on top."""
+    half = np.tan(np.radians(camera.fov_y) / 2)
+    x = (2 * (np.arange(width) + 0.5) / width - 1) * half * width / height
+    y = -(2 * (np.arange(height) + 0.5) / height - 1) * half
+    return np.meshgrid(x, y)
+
+
+def run_python(code, **environment):
+    """Run code in a new interpreter that knows this package; give the finished process."""
+    path = os.pathsep.join(sys.path)
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "PYTHONPATH": path, **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize("fov", [20, 60, 100])
+@pytest.mark.parametrize("off_axis", [0.0, 0.7])
+def test_a_sphere_has_the_depth_chord_and_normal_of_a_sphere(renderer, fov, off_axis):
+    camera = pbf.Camera(**ALONG_Z, fov_y=fov)
+    half = np.tan(np.radians(fov) / 2)
+    center = np.array([off_axis * half * 3, -off_axis * half * 2.4, -3.0])
+    radius = 0.5 * half
+    params = pbf.RenderParams(radius=radius, smoothing_iterations=0, thickness_iterations=0)
+    layers = renderer.layers([center], camera, params)
+    center, radius = np.float32(center).astype(float), float(np.float32(radius))
+
+    x, y = rays(camera)
+    direction = np.stack([x, y, -np.ones_like(x)], axis=-1)
+    length2 = (direction**2).sum(axis=-1)
+    middle = direction @ center / length2
+    discriminant = radius**2 - ((center - middle[..., None] * direction) ** 2).sum(axis=-1)
+    inside, outside = discriminant > 0.02 * radius**2, discriminant < -0.02 * radius**2
+    assert inside.sum() > 100
+
+    half_chord = np.sqrt(np.maximum(discriminant, 0))
+    depth = middle - half_chord / np.sqrt(length2)
+    assert layers["depth"][inside] == pytest.approx(depth[inside], rel=1e-5)
+    assert layers["thickness"][inside] == pytest.approx(2 * half_chord[inside], rel=1e-4)
+    assert not layers["depth"][outside].any()
+    assert not layers["thickness"][outside].any()
+
+    normal = (depth[..., None] * direction - center) / radius
+    well_inside = discriminant > 0.5 * radius**2
+    cosine = (layers["normal"] * normal).sum(axis=-1)[well_inside]
+    assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 1.5  # of pixel-wide differences
+
+
+def test_a_sphere_in_parallel_view(renderer):
+    camera = pbf.Camera(**ALONG_Z, orthographic=True, height=2.4)  # a pixel is 0.02 m
+    layers = renderer.layers([[0.3, -0.2, -5]], camera, pbf.RenderParams(radius=0.4))
+    x, y = np.meshgrid((np.arange(160) - 79.5) * 0.02, -(np.arange(120) - 59.5) * 0.02)
+    discriminant = 0.16 - (x - 0.3) ** 2 - (y + 0.2) ** 2
+    inside = discriminant > 0.003
+    assert layers["depth"][inside] == pytest.approx(5 - np.sqrt(discriminant[inside]), rel=1e-5)
+    assert layers["thickness"][inside] == pytest.approx(
+        2 * np.sqrt(discriminant[inside]), rel=1e-4
+    )
+
+
+def test_of_two_spheres_the_nearer_is_seen_and_the_chords_add(renderer):
+    camera = pbf.Camera(**ALONG_Z, fov_y=40)
+    params = pbf.RenderParams(radius=0.3)
+    first, second = [[0, 0, -3]], [[0.1, 0.05, -3.2]]
+    one, two = (renderer.layers(x, camera, params) for x in (first, second))
+    both = renderer.layers(first + second, camera, params)
+    far = np.where(two["depth"] == 0, np.inf, two["depth"])
+    near = np.where(one["depth"] == 0, np.inf, one["depth"])
+    nearest = np.minimum(near, far)
+    assert np.array_equal(both["depth"], np.where(np.isinf(nearest), 0, nearest))
+    assert np.allclose(both["thickness"], one["thickness"] + two["thickness"], rtol=1e-6)
+
+
+@pytest.mark.parametrize("scale", [1, 1.5, 2, 3])
+def test_thickness_holds_the_volume_of_the_fluid_whatever_the_radius(renderer, scale):
+    # No lattice: its spheres would all lie alike on the pixels and make the same error.
+    cloud = np.random.default_rng(3).uniform((-0.5, -0.4, -1.5), (0.5, 0.4, -0.9), (2000, 3))
+    camera = pbf.Camera(**ALONG_Z, orthographic=True, height=1.2)
+    params = pbf.RenderParams(radius=0.025 * scale, particle_volume=0.05**3)
+    layers = renderer.layers(cloud, camera, params)
+    volume = layers["thickness"].sum(dtype=float) * 0.01**2
+    assert volume == pytest.approx(len(cloud) * 0.05**3, rel=0.01)
+
+
+@pytest.mark.parametrize("smoothing", ["bilateral", "gaussian"])
+def test_a_sheet_of_particles_becomes_a_smooth_plane(smoothing):
+    x, y = np.meshgrid(np.arange(-60, 61) * 0.02, np.arange(-60, 61) * 0.02)
+    sheet = np.stack([x, y, -2 + 0.5 * y], axis=-1).reshape(-1, 3)
+    camera = pbf.Camera(**ALONG_Z, fov_y=30)
+    with pbf.Renderer(320, 240) as large:
+        layers = large.layers(sheet, camera, pbf.RenderParams(radius=0.02, smoothing=smoothing))
+    normal = layers["normal"][20:-20, 20:-20]
+    expected = np.array([0, -0.5, 1]) / np.hypot(1, 0.5)
+    angles = np.degrees(np.arccos(np.clip(normal @ expected, -1, 1)))
+    assert angles.mean() < 1.0
+    assert angles.max() < 5.0
+
+
+def test_no_particles_give_the_background(renderer):
+    camera = pbf.Camera(**ALONG_Z)
+    params = pbf.RenderParams(background="plain", background_color=(1, 0, 0), floor=False)
+    image = renderer.render(np.zeros((0, 3)), camera, params)
+    assert image.shape == (120, 160, 4)
+    assert image.dtype == np.uint8
+    # Pure red comes out at the shoulder of the tone curve: 0.9, encoded.
+    assert np.all(image == image[0, 0])
+    assert image[0, 0].tolist()[1:] == [0, 0, 255]
+    layers = renderer.layers(np.zeros((0, 3)), camera, params)
+    assert all(not layer.any() for layer in layers.values())
+
+
+def test_row_0_is_the_top(renderer):
+    layers = renderer.layers([[0, 0.6, -2]], pbf.Camera(**ALONG_Z), pbf.RenderParams(radius=0.1))
+    assert layers["depth"][:60].any()
+    assert not layers["depth"][60:].any()
+
+
+def test_particles_behind_the_camera_are_not_seen(renderer):
+    camera = pbf.Camera(**ALONG_Z)
+    layers = renderer.layers([[0, 0, 2], [0, 0, 0.51]], camera, pbf.RenderParams(radius=0.5))
+    assert all(not layer.any() for layer in layers.values())
+
+
+@pytest.mark.parametrize("center", [(0, 0, -0.5), (0.3, 0.1, -0.45), (0, 0, 0), (0, 0.4, 0.1)])
+def test_what_crosses_the_near_plane_is_cut_there(renderer, center):
+    camera = pbf.Camera(**ALONG_Z, near=0.2, far=10)
+    params = pbf.RenderParams(radius=0.5, smoothing_iterations=0)
+    layers = renderer.layers([center], camera, params)
+    x, y = rays(camera)
+    length2 = x * x + y * y + 1
+    middle = (x * center[0] + y * center[1] - center[2]) / length2
+    miss2 = np.dot(center, center) - middle**2 * length2
+    half_depth = np.sqrt(np.maximum(0.25 - miss2, 0) / length2)
+    chord = (np.maximum(middle + half_depth - np.maximum(middle - half_depth, 0.2), 0)) * np.sqrt(
+        length2
+    )
+    sure = np.abs(0.25 - miss2) > 0.01
+    chord[miss2 > 0.25] = 0
+    assert layers["thickness"][sure] == pytest.approx(chord[sure], rel=1e-3, abs=1e-4)
+    front = np.where((middle - half_depth >= 0.2) & (miss2 < 0.25), middle - half_depth, 0)
+    sure &= np.abs(middle - half_depth - 0.2) > 1e-3
+    assert layers["depth"][sure] == pytest.approx(front[sure], rel=1e-4, abs=1e-6)
+    assert np.isfinite(layers["normal"]).all()
+
+
+def test_the_same_call_gives_the_same_bits(renderer):
+    cloud = np.random.default_rng(1).uniform(-0.5, 0.5, (3000, 3)) - [0, 0, 2]
+    camera, params = pbf.Camera(**ALONG_Z), pbf.RenderParams(radius=0.05)
+    assert np.array_equal(
+        renderer.render(cloud, camera, params), renderer.render(cloud, camera, params)
+    )
+
+
+def test_twice_the_resolution_shows_the_same_surface():
+    block = pbf.block((-0.3, -0.3, -2.3), (0.3, 0.3, -1.7), spacing=0.04)
+    camera, params = pbf.Camera(**ALONG_Z), pbf.RenderParams(radius=0.04)
+    with pbf.Renderer(160, 120) as small, pbf.Renderer(320, 240) as large:
+        one = small.layers(block, camera, params)["depth_smooth"]
+        two = large.layers(block, camera, params)["depth_smooth"]
+    two = two.reshape(120, 2, 160, 2).transpose(0, 2, 1, 3).reshape(120, 160, 4)
+    seen = (one > 0) & (two > 0).all(axis=-1)
+    assert seen.sum() > 1000
+    assert np.median(np.abs(two.mean(axis=-1) - one)[seen]) < 0.04 * 0.04
+
+
+def test_the_first_opengl_version_that_is_enough_draws_the_same():
+    code = """
+import numpy as np, pbfluids as pbf
+cloud = np.random.default_rng(1).uniform(-0.5, 0.5, (500, 3)) - [0, 0, 2]
+camera = pbf.Camera(eye=(0, 0, 0), target=(0, 0, -1))
+with pbf.Renderer(64, 48) as r:
+    print(r.info["version"].split()[0])
+    print(int(r.render(cloud, camera, pbf.RenderParams(radius=0.05)).astype(int).sum()))
+"""
+    version = {"MESA_GL_VERSION_OVERRIDE": "3.3", "MESA_GLSL_VERSION_OVERRIDE": "330"}
+    floor, best = run_python(code, **version), run_python(code)
+    assert floor.returncode == 0, floor.stderr
+    assert floor.stdout.split()[0] == "3.3"
+    assert best.stdout.split()[0] > "3.3"
+    assert floor.stdout.split()[1] == best.stdout.split()[1]
+
+
+def test_a_report_counts_particles_and_times_passes_when_asked(renderer):
+    camera = pbf.Camera(**ALONG_Z)
+    renderer.render([[0, 0, -1]], camera)
+    assert renderer.report == {"particles": 1, "milliseconds": {}}
+    with pbf.Renderer(16, 16, timed=True) as timed:
+        timed.render([[0, 0, -1]], camera)
+        passes = list(timed.report["milliseconds"])
+    assert passes == [
+        *("upload", "sphere_depth", "depth_smooth", "thickness_smooth"),
+        *("normal", "composite", "read_back"),
+    ]
+    assert "OpenGL" in renderer.description
+    assert set(renderer.info) == {"renderer", "vendor", "version", "platform"}
+
+
+def test_close_is_final_and_may_come_twice():
+    renderer = pbf.Renderer(16, 16)
+    renderer.close()
+    renderer.close()
+    assert renderer.closed
+    with pytest.raises(errors.GlError, match="closed; make a new one"):
+        renderer.render([[0, 0, 0]], pbf.Camera())
+
+
+def test_two_renderers_do_not_disturb_each_other():
+    camera = pbf.Camera(**ALONG_Z)
+    cloud = [[0, 0, -1]]
+    one, two = pbf.Renderer(32, 32), pbf.Renderer(48, 16)
+    first = one.render(cloud, camera)
+    assert two.render(cloud, camera).shape == (16, 48, 4)
+    two.close()
+    assert np.array_equal(one.render(cloud, camera), first)
+    one.close()
+
+
+def test_threads_may_share_a_renderer_or_have_their_own(renderer):
+    camera, cloud = pbf.Camera(**ALONG_Z), [[0, 0, -1]]
+    expected = renderer.render(cloud, camera)
+    images = []
+
+    def draw(own):
+        if own:
+            with pbf.Renderer(160, 120) as mine:
+                images.append(mine.render(cloud, camera))
+        else:
+            images.append(renderer.render(cloud, camera))
+
+    threads = [threading.Thread(target=draw, args=(k % 2 == 0,)) for k in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(images) == 6
+    assert all(np.array_equal(image, expected) for image in images)
+
+
+@pytest.mark.slow
+def test_thousands_of_renderers_leave_nothing_behind():
+    code = """
+import os, pbfluids as pbf
+def held():
+    pages = int(open("/proc/self/statm").read().split()[1])
+    return pages * 4096 / 1e6, len(os.listdir("/proc/self/fd"))
+def make(n):
+    for _ in range(n):
+        with pbf.Renderer(16, 16) as r:
+            r.render([[0, 0, 0]], pbf.Camera())
+make(300)
+before = held()
+make(2000)
+print(held()[0] - before[0], held()[1] - before[1])
+"""
+    done = run_python(code)
+    assert done.returncode == 0, done.stderr
+    grown, files = (float(word) for word in done.stdout.split())
+    assert grown < 20  # MB
+    assert files <= 0
+
+
+@pytest.mark.parametrize("what", ["render", "make", "nothing"])
+def test_after_fork_the_child_gets_an_error_and_the_parent_goes_on(what):
+    code = f"""
+import os, sys, pbfluids as pbf
+renderer = pbf.Renderer(16, 16)
+pid = os.fork()
+if pid == 0:
+    try:
+        if "{what}" == "render":
+            renderer.render([[0, 0, 0]], pbf.Camera())
+        elif "{what}" == "make":
+            pbf.Renderer(16, 16)
+        else:
+            renderer.close()
+            os._exit(3)
+    except pbf.FluidError as error:
+        os._exit(3 if "spawn" in str(error) else 4)
+    os._exit(5)
+assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 3
+renderer.render([[0, 0, 0]], pbf.Camera())
+"""
+    done = run_python(code)
+    assert done.returncode == 0, done.stderr
+
+
+def test_an_interpreter_may_end_with_an_open_renderer():
+    done = run_python("import pbfluids as pbf; r = pbf.Renderer(16, 16)")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_without_a_driver_the_error_lists_the_attempts_and_the_cure():
+    code = """
+import pbfluids as pbf
+try:
+    pbf.Renderer(16, 16)
+except pbf.errors.RendererUnavailable as error:
+    print(error)
+"""
+    done = run_python(code, __EGL_VENDOR_LIBRARY_DIRS="/nowhere", __EGL_VENDOR_LIBRARY_FILENAMES="")
+    assert "tried in this order:\n  EGL devices: " in done.stdout
+    assert "surfaceless" in done.stdout
+    assert "apt-get install libegl1 libgl1-mesa-dri" in done.stdout
+    assert "NVIDIA_DRIVER_CAPABILITIES=all" in done.stdout
+
+
+def test_a_device_that_is_not_there_is_refused_with_those_that_are():
+    code = "import pbfluids as pbf; pbf.Renderer(16, 16)"
+    done = run_python(code, PBF_EGL_DEVICE="99")
+    assert "PBF_EGL_DEVICE = 99" in done.stderr
+    assert "EGL device 0" in done.stderr
+    assert run_python(code, PBF_EGL_DEVICE="0").returncode == 0
+
+
+def test_a_broken_shader_is_reported_with_file_and_line(tmp_path, monkeypatch):
+    folder = tmp_path / "glsl"
+    shutil.copytree(GLSL, folder)
+    path = folder / "normal.frag"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    number = lines.index("void main() {") + 2
+    lines.insert(number - 1, "  float x = undeclared;")
+    path.write_text("\n".join(lines), encoding="utf-8")
+    monkeypatch.setenv("PBF_GLSL_DIR", str(folder))
+    with pytest.raises(errors.GlError, match=rf"normal\.frag:{number}: (.|\n)*undeclared"):
+        pbf.Renderer(16, 16)
+    monkeypatch.setenv("PBF_GLSL_DIR", "/nowhere")
+    with pytest.raises(errors.GlError, match="PBF_GLSL_DIR = /nowhere"):
+        pbf.Renderer(16, 16)
+
+
+@pytest.mark.parametrize("size", [(0, 10), (10, -1), (10, 10**6)])
+def test_impossible_sizes_are_refused(size):
+    with pytest.raises(errors.InvalidParameter, match="(width|height) = -?[0-9]+ pixels: "):
+        pbf.Renderer(*size)
+
+
+@pytest.mark.parametrize(
+    ("positions", "error", "match"),
+    [
+        (np.zeros((3, 2)), errors.InvalidParameter, r"positions: expected shape \(n, 3\)"),
+        (np.zeros(3), errors.InvalidParameter, r"positions: expected shape \(n, 3\)"),
+        ([[0, np.nan, 0]], errors.InvalidParameter, "positions: .* not finite"),
+        ([[0, 1e39, 0]], errors.InvalidParameter, "positions: .* not finite"),
+        (np.zeros((2, 3), complex), errors.WrongType, "positions: .* real numbers"),
+        ("water", errors.WrongType, "positions: .* real numbers"),
+    ],
+)
+def test_bad_positions_are_refused(renderer, positions, error, match):
+    with pytest.raises(error, match=match):
+        renderer.render(positions, pbf.Camera())
+
+
+@pytest.mark.parametrize(
+    ("fields", "match"),
+    [
+        ({"eye": (1, 1, 1), "target": (1, 1, 1)}, "Camera.target .* must differ from eye"),
+        ({"eye": (0, 5, 0), "target": (0, 0, 0)}, "Camera.up .* parallel"),
+        ({"up": (0, 0, 0)}, "Camera.up .* zero"),
+        ({"fov_y": 0}, "Camera.fov_y = 0 degrees"),
+        ({"fov_y": 180}, "Camera.fov_y = 180 degrees"),
+        ({"near": 2, "far": 1}, "Camera.near = 2 m: must be less than far = 1"),
+        ({"height": -1}, "Camera.height = -1 m"),
+    ],
+)
+def test_impossible_cameras_are_refused(fields, match):
+    with pytest.raises(errors.InvalidParameter, match=match):
+        pbf.Camera(**fields)
+
+
+@pytest.mark.parametrize(
+    ("fields", "match"),
+    [
+        ({"radius": 0}, "RenderParams.radius = 0 m"),
+        ({"absorption": (-1, 0, 0)}, "RenderParams.absorption"),
+        ({"smoothing": "box"}, 'RenderParams.smoothing .* "bilateral", "gaussian"'),
+        ({"tank_lower": (0, 0, 0)}, "RenderParams.tank_upper .* together"),
+        ({"tank_lower": (0, 0, 0), "tank_upper": (1, 0, 1)}, "RenderParams.tank_upper .* exceed"),
+        ({"up": (0, 0, 0)}, "RenderParams.up"),
+    ],
+)
+def test_impossible_parameters_are_refused(fields, match):
+    with pytest.raises(errors.InvalidParameter, match=match):
+        pbf.RenderParams(**fields)
