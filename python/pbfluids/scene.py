@@ -229,7 +229,7 @@ class Scene:
     def render_params(self) -> _core.RenderParams:
         """How the fluid is drawn; sizes follow from its spacing, the tank from the domain."""
         spacing, domain = self.fluid.spacing, self._tables["domain"]
-        derived = {"radius": spacing, "particle_volume": spacing**3}
+        derived = {"radius": 1.2 * spacing, "particle_volume": spacing**3}
         if domain:
             derived |= {"tank_lower": domain["lower"], "tank_upper": domain["upper"]}
         return _core.RenderParams(**{**derived, **self._given("render")})

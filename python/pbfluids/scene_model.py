@@ -40,7 +40,7 @@ DERIVED: dict[str, dict[str, str]] = {
         "target": "the middle of the domain.",
     },
     "render": {
-        "radius": "the fluid's spacing.",
+        "radius": "1.2 times the fluid's spacing.",
         "particle_volume": "the cube of the fluid's spacing.",
         "tank_lower": "the domain's.",
         "tank_upper": "the domain's.",
