@@ -1,5 +1,5 @@
-# pbf_embed_glsl(target file…): puts the files of glsl/ into the target as text, so that shaders need no
-# install path. Editing one rebuilds one small source file.
+# pbf_embed_glsl(target file…): puts the files of glsl/ into the target as text, so that shaders
+# need no install path. Editing one rebuilds one small source file.
 function(pbf_embed_glsl target)
   set(folder "${PROJECT_SOURCE_DIR}/glsl")
   set(script "${PROJECT_SOURCE_DIR}/cmake/pbf_embed_glsl_script.cmake")

@@ -1,5 +1,5 @@
-# Writes OUTPUT, a C++ file that holds each of FILES as an array of characters. Read as hexadecimal pairs,
-# since CMake would take semicolons and brackets in the text for lists.
+# Writes OUTPUT, a C++ file that holds each of FILES as an array of characters. Read as hexadecimal
+# pairs, since CMake would take semicolons and brackets in the text for lists.
 set(entries "")
 foreach(path IN LISTS FILES)
   get_filename_component(name "${path}" NAME)

@@ -8,7 +8,8 @@ vec3 tone(vec3 c) {
 }
 
 vec3 srgb(vec3 c) {
-  return mix(12.92 * c, 1.055 * pow(max(c, 1e-5), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+  vec3 curved = 1.055 * pow(max(c, 1e-5), vec3(1.0 / 2.4)) - 0.055;
+  return mix(12.92 * c, curved, greaterThan(c, vec3(0.0031308)));
 }
 
 vec4 display(vec3 color) { return vec4(srgb(tone(color * u_exposure)), 1.0); }

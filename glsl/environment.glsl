@@ -1,6 +1,7 @@
-// environment.glsl: what stands behind and around the fluid, as a function of a ray: a sky with a sun, and a
-// floor. World space, meters, linear colors. An analytic scene has an answer for every refracted and reflected
-// ray, so nothing in front of the fluid can bleed in and there are no halos.
+// environment.glsl: what stands behind and around the fluid, as a function of a ray: a sky with a
+// sun, and a floor. World space, meters, linear colors. An analytic scene has an answer for every
+// refracted and reflected ray, so nothing in front of the fluid can bleed in and there are no
+// halos.
 uniform vec3 u_up;              // unit vector
 uniform vec3 u_sun;             // unit vector towards the sun
 uniform int u_plain;            // 1: one color in all directions
@@ -29,14 +30,15 @@ vec3 sky(vec3 direction) {
   return color + SUN * (0.25 * glow8);
 }
 
-// Lights that only mirrors show: the sun's disc, softened, and a bright band of sky all around, which draws
-// waves as a studio's soft boxes draw glass.
+// Lights that only mirrors show: the sun's disc, softened, and a bright band of sky all around,
+// which draws waves as a studio's soft boxes draw glass.
 vec3 lights(vec3 direction) {
   if (u_plain == 1) return vec3(0.0);
   float off = 1.0 - dot(direction, u_sun);
   float elevation = dot(direction, u_up);
   float band = smoothstep(0.02, 0.45, elevation) * (1.0 - 0.6 * smoothstep(0.5, 0.9, elevation));
-  return SUN * (60.0 * exp(-off * 700.0) + 5.0 * exp(-off * 40.0)) + vec3(1.1, 1.25, 1.4) * 1.6 * band;
+  vec3 sun = SUN * (60.0 * exp(-off * 700.0) + 5.0 * exp(-off * 40.0));
+  return sun + vec3(1.1, 1.25, 1.4) * 1.6 * band;
 }
 
 // Share of lines of half width w, repeating with period 1, in [x - f, x + f].

@@ -1,13 +1,17 @@
-// frame.glsl: the camera, and the ways between pixel, eye space and the depth that the passes store.
+// frame.glsl: the camera, and the ways between pixel, eye space and the depth that the passes
+// store.
 //
-// Eye space: x right, y up, z out of the picture, meters. Depth d is -z, measured along the viewing axis.
-// Stored is the *affine depth* a: 1/d in perspective, -d in parallel projection. On a plane it is an
-// affine function of the pixel's coordinates in both, so that a filter that keeps straight lines straight
-// keeps planes exactly; and nearer is always larger, so that blending with MAX finds the front.
+// Eye space: x right, y up, z out of the picture, meters. Depth d is -z, measured along the viewing
+// axis. Stored is the *affine depth* a: 1/d in perspective, -d in parallel projection. On a plane
+// it is an affine function of the pixel's coordinates in both, so that a filter that keeps straight
+// lines straight keeps planes exactly; and nearer is always larger, so that blending with MAX finds
+// the front.
 layout(std140) uniform Frame {
   mat4 u_view;  // world to eye space
-  vec4 u_lens;  // half width and half height of what is seen (at depth 1 / everywhere), near, far [m]
-  vec4 u_size;  // width, height [pixels]; 1 perspective, 0 parallel; pixels per meter (at depth 1 / everywhere)
+  // Half width and half height of what is seen (at depth 1 in perspective), near, far [m].
+  vec4 u_lens;
+  // Width, height [pixels]; 1 perspective, 0 parallel; pixels per meter (at depth 1 in perspective).
+  vec4 u_size;
 };
 
 const float NOTHING = -1e30;  // affine depth where there is no fluid

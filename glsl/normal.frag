@@ -1,4 +1,5 @@
-// normal.frag: in: smoothed affine depth. Out: unit normal in eye space, towards the viewer; 0 without fluid.
+// normal.frag: in: smoothed affine depth. Out: unit normal in eye space, towards the viewer; 0
+// without fluid.
 uniform sampler2D u_values;
 layout(location = 0) out vec4 o_normal;
 
@@ -9,9 +10,9 @@ vec3 position(ivec2 pixel, out bool exists) {
   return eye_position(vec2(pixel) + 0.5, depth_of(exists ? a : affine_depth(1.0)));
 }
 
-// Tangent along an axis from differences of positions to both sides, each weighted by 1/(dz^2 + pixel^2)^2. Both
-// are tangent to a plane, so the normal of a plane is exact; on a gentle slope they count the same, which is
-// the central difference; at a silhouette the smaller step wins.
+// Tangent along an axis from differences of positions to both sides, each weighted by 1/(dz^2 +
+// pixel^2)^2. Both are tangent to a plane, so the normal of a plane is exact; on a gentle slope
+// they count the same, which is the central difference; at a silhouette the smaller step wins.
 vec3 tangent(ivec2 pixel, ivec2 axis, vec3 p, float width) {
   bool has_next, has_previous;
   vec3 next = position(pixel + axis, has_next) - p;

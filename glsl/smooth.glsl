@@ -1,17 +1,19 @@
-// smooth.glsl: one axis of a smoothing filter. At each pixel a straight line is fitted to the neighbors along
-// the axis by weighted least squares; its value at the pixel is the result. A constant and a tilted plane are
-// therefore kept exactly, also beside a hole or the border, where only some neighbors exist.
+// smooth.glsl: one axis of a smoothing filter. At each pixel a straight line is fitted to the
+// neighbors along the axis by weighted least squares; its value at the pixel is the result. A
+// constant and a tilted plane are therefore kept exactly, also beside a hole or the border, where
+// only some neighbors exist.
 //
-// Weights: exp(-k^2 / (2 s^2)) in space, k the distance and s = radius / 2 in pixels, fading out over the last
-// pixel so that nothing pops when the radius changes. The bilateral filter multiplies by (1 - u^2)^2, u the
-// difference of values over the range: 0 from the range on, so that a higher step is kept untouched.
+// Weights: exp(-k^2 / (2 s^2)) in space, k the distance and s = radius / 2 in pixels, fading out
+// over the last pixel so that nothing pops when the radius changes. The bilateral filter multiplies
+// by (1 - u^2)^2, u the difference of values over the range: 0 from the range on, so that a higher
+// step is kept untouched.
 uniform sampler2D u_values;
 uniform ivec2 u_axis;    // (1, 0) or (0, 1)
 uniform int u_gaussian;  // 1: no range weight
 uniform float u_empty;   // neighbors with this value or less do not exist: no fluid
 
-// More neighbors to a side than this are thinned out evenly: a kernel that wide covers many pixels of each
-// sphere and sees the same surface.
+// More neighbors to a side than this are thinned out evenly: a kernel that wide covers many pixels
+// of each sphere and sees the same surface.
 const float MOST_TAPS = 24.0;
 
 // @param range  inverse widths of the window of values, below and above the pixel's own

@@ -1,5 +1,6 @@
-// sphere_depth.frag: in: sphere. Out: affine depth of its front, for MAX blending. With THICKNESS also the
-// thickness, for ADD blending: the pass of both where a driver blends each target in its own way (OpenGL 4.0).
+// sphere_depth.frag: in: sphere. Out: affine depth of its front, for MAX blending. With THICKNESS
+// also the thickness, for ADD blending: the pass of both where a driver blends each target in its
+// own way (OpenGL 4.0).
 flat in vec3 v_center;   // eye space [m]
 uniform float u_radius;  // [m]
 layout(location = 0) out float o_depth;

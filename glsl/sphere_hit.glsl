@@ -9,7 +9,8 @@ Hit hit_sphere(vec2 pixel, vec3 center, float radius) {
   vec3 origin = ray_origin(pixel);
   vec3 direction = ray_direction(pixel);
   float scale2 = dot(direction, direction);
-  // From the point of the ray nearest to the center: the textbook quadratic loses the digits that matter.
+  // From the point of the ray nearest to the center: the textbook quadratic loses the digits that
+  // matter.
   float middle = dot(direction, center - origin) / scale2;
   vec3 miss = center - origin - middle * direction;
   float half2 = radius * radius - dot(miss, miss);

@@ -1,11 +1,12 @@
-// sprite.vert: a quad around the exact outline of each sphere. In: positions [m]. Counter-clockwise, so that
-// culled back faces cost nothing.
+// sprite.vert: a quad around the exact outline of each sphere. In: positions [m].
+// Counter-clockwise, so that culled back faces cost nothing.
 in vec3 a_position;
 flat out vec3 v_center;  // eye space [m]
 uniform float u_radius;  // [m]
 
-// Least and greatest slope x/depth of the part of a circle (center x, depth z) that lies beyond the near
-// plane, seen from the origin: tangents, or where the circle meets the plane (Mara & McGuire 2013).
+// Least and greatest slope x/depth of the part of a circle (center x, depth z) that lies beyond the
+// near plane, seen from the origin: tangents, or where the circle meets the plane (Mara & McGuire
+// 2013).
 vec2 slopes(float x, float z, float near) {
   float cut = sqrt(max(u_radius * u_radius - (near - z) * (near - z), 0.0));
   vec2 result = vec2(x - cut, x + cut) / near;

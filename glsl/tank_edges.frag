@@ -1,5 +1,5 @@
-// tank_edges.frag: in: smoothed affine depth, smoothed thickness [m]. Out: an edge of the tank, sRGB-encoded,
-// to be blended over the picture. Behind fluid it is seen through it.
+// tank_edges.frag: in: smoothed affine depth, smoothed thickness [m]. Out: an edge of the tank,
+// sRGB-encoded, to be blended over the picture. Behind fluid it is seen through it.
 uniform sampler2D u_depth;
 uniform sampler2D u_thickness;
 uniform vec3 u_absorption;   // [1/m]

@@ -1,5 +1,5 @@
-// tank_edges.vert: the twelve edges of the tank, each a band of constant width in pixels around its line, cut
-// at the near plane. One instance per edge.
+// tank_edges.vert: the twelve edges of the tank, each a band of constant width in pixels around its
+// line, cut at the near plane. One instance per edge.
 uniform vec3 u_tank_lower;  // world space [m]
 uniform vec3 u_tank_upper;
 uniform float u_half_width;  // [pixels], the soft margin included

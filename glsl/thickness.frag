@@ -1,4 +1,5 @@
-// thickness.frag: in: sphere. Out: its share of the length of fluid along the ray [m], for ADD blending.
+// thickness.frag: in: sphere. Out: its share of the length of fluid along the ray [m], for ADD
+// blending.
 flat in vec3 v_center;         // eye space [m]
 uniform float u_radius;        // [m]
 uniform float u_volume_share;  // particle's volume / sprite's volume

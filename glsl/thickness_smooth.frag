@@ -1,5 +1,5 @@
-// thickness_smooth.frag: in: thickness [m] and affine depth. Out: thickness [m], smoothed along one axis.
-// Pixels without fluid carry no weight.
+// thickness_smooth.frag: in: thickness [m] and affine depth. Out: thickness [m], smoothed along one
+// axis. Pixels without fluid carry no weight.
 uniform sampler2D u_depth;
 uniform float u_radius;  // [m]
 uniform float u_range;   // [m]

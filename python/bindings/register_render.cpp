@@ -20,8 +20,8 @@ py::array_t<T> pixels_to_numpy(Pixels<T>&& pixels) {
 /// A FluidRenderer that several Python threads may call, in turn, and that can be closed.
 class Renderer {
  private:
-  /// Runs f without the GIL, one thread at a time. The GIL goes first: waiting with it for a thread that
-  /// wants it would never end.
+  /// Runs f without the GIL, one thread at a time. The GIL goes first: waiting with it for a thread
+  /// that wants it would never end.
   template <class F>
   auto with_lock(F&& f) {
     const py::gil_scoped_release unlocked;

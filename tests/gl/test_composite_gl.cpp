@@ -1,7 +1,6 @@
 #include "pbf/render/passes/composite.hpp"
 
 #include "gl_fixture.hpp"
-
 #include <cmath>
 
 using namespace pbf;
@@ -9,8 +8,8 @@ using namespace pbf::test;
 
 namespace {
 
-/// What a camera that looks straight at, or along, a wall of fluid sees of one gray background: linear red,
-/// green, blue of the middle pixel.
+/// What a camera that looks straight at, or along, a wall of fluid sees of one gray background:
+/// linear red, green, blue of the middle pixel.
 std::array<double, 3> seen(const RenderParams& params, double thickness, const Vec3& normal) {
   const Camera camera = GlFixture::looking_down_z();
   const GlFixture gl(65, 65, camera);

@@ -1,7 +1,6 @@
 #include "pbf/render/passes/depth_smooth.hpp"
 
 #include "gl_fixture.hpp"
-
 #include <cmath>
 
 using namespace pbf;
@@ -76,7 +75,8 @@ TEST_CASE("depth_smooth: a tilted plane stays that plane, at the border and arou
   }
 }
 
-TEST_CASE("depth_smooth: a step higher than the range is kept by bilateral and spread by gaussian") {
+TEST_CASE(
+    "depth_smooth: a step higher than the range is kept by bilateral and spread by gaussian") {
   const GlFixture gl;
   const auto step = [](int x, int) { return 1 / (x < 32 ? kHere : kHere + 0.101); };
   const Texture depth = gl.texture(step);
@@ -89,7 +89,8 @@ TEST_CASE("depth_smooth: a step higher than the range is kept by bilateral and s
   CHECK(1 / spread[gl.at(32, 24)] < kHere + 0.08);
 }
 
-TEST_CASE("depth_smooth: the answer to an impulse is the kernel, whose width is a length in the scene") {
+TEST_CASE(
+    "depth_smooth: the answer to an impulse is the kernel, whose width is a length in the scene") {
   Camera camera = GlFixture::looking_down_z();
   camera.orthographic = true;
   camera.height = 4.8F;  // a pixel is 0.1 m
@@ -108,13 +109,15 @@ TEST_CASE("depth_smooth: the answer to an impulse is the kernel, whose width is 
     for (int dx = -8; dx <= 8; ++dx) {
       // Symmetric neighbors: the fitted line's value in the middle is the weighted mean.
       const double expected = weight(dx) * weight(dy) / (total * total);
-      CHECK(result[gl.at(32 + dx, 24 + dy)] + 2 == doctest::Approx(expected).epsilon(1e-4).scale(0.01));
+      CHECK(result[gl.at(32 + dx, 24 + dy)] + 2 ==
+            doctest::Approx(expected).epsilon(1e-4).scale(0.01));
     }
   }
 }
 
 TEST_CASE("depth_smooth: the kernel shrinks with distance as things do") {
-  // The same bump, seen at twice the distance with twice the resolution, is smoothed to the same shape.
+  // The same bump, seen at twice the distance with twice the resolution, is smoothed to the same
+  // shape.
   const auto peak = [](int width, int height, double depth) {
     const GlFixture gl(width, height);
     const double pixel = 2 * std::tan(std::numbers::pi / 6) * depth / height;

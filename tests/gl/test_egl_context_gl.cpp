@@ -1,6 +1,5 @@
-#include "pbf/gl/egl_context.hpp"
-
 #include "pbf/core/error.hpp"
+#include "pbf/gl/egl_context.hpp"
 #include "pbf/gl/functions.hpp"
 #include "pbf/render/fluid_renderer.hpp"
 

@@ -1,7 +1,6 @@
 #include "pbf/render/passes/normal.hpp"
 
 #include "gl_fixture.hpp"
-
 #include <cmath>
 
 using namespace pbf;
@@ -47,7 +46,8 @@ TEST_CASE("normal: takes the side that belongs to the surface, and faces the vie
   for (const int x : {31, 32}) {
     CHECK(at_step[3 * gl.at(x, 24) + 2] == doctest::Approx(1).epsilon(1e-4));
   }
-  const Texture alone = gl.texture([](int x, int y) { return x == 5 && y == 5 ? 0.5 : double{kNothing}; });
+  const Texture alone =
+      gl.texture([](int x, int y) { return x == 5 && y == 5 ? 0.5 : double{kNothing}; });
   pass(gl.tiles(), alone, Framebuffer({&result}));
   const std::vector<float> lone = gl.read(result, 3);
   CHECK(lone[3 * gl.at(5, 5) + 2] == 1.0F);

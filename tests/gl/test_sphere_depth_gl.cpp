@@ -1,5 +1,4 @@
 #include "gl_fixture.hpp"
-
 #include <cmath>
 
 using namespace pbf;

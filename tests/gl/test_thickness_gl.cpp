@@ -1,7 +1,6 @@
 #include "pbf/render/passes/thickness.hpp"
 
 #include "gl_fixture.hpp"
-
 #include <numeric>
 
 using namespace pbf;
@@ -14,9 +13,9 @@ TEST_CASE("thickness: summed over a parallel view it is the fluid's volume, what
   const GlFixture gl(256, 256, camera);
   Points centers(3, 50);
   for (int i = 0; i < 50; ++i) {
-    centers.col(i) = Vec3(0.06F * static_cast<Real>(i % 7) - 0.2F,
-                          0.05F * static_cast<Real>(i % 5) - 0.1F,
-                          -1.0F - 0.02F * static_cast<Real>(i));
+    centers.col(i) =
+        Vec3(0.06F * static_cast<Real>(i % 7) - 0.2F, 0.05F * static_cast<Real>(i % 5) - 0.1F,
+             -1.0F - 0.02F * static_cast<Real>(i));
   }
   Sprites sprites;
   sprites.upload(centers);

@@ -1,7 +1,6 @@
 #include "pbf/render/passes/thickness_smooth.hpp"
 
 #include "gl_fixture.hpp"
-
 #include <numeric>
 
 using namespace pbf;
@@ -18,7 +17,8 @@ std::vector<float> smooth(const GlFixture& gl, const Texture& thickness, Smoothi
   params.thickness_smoothing = smoothing;
   params.thickness_radius = 0.2F;
   params.thickness_range = 0.1F;
-  pass(gl.tiles(), thickness, depth, params, Framebuffer({&between}), between, Framebuffer({&result}));
+  pass(gl.tiles(), thickness, depth, params, Framebuffer({&between}), between,
+       Framebuffer({&result}));
   return gl.read(result);
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("thickness_smooth: a constant stays constant and pixels without fluid 
   }
 }
 
-TEST_CASE("thickness_smooth: a wedge stays a wedge; a high step is kept or spread by name") {
+TEST_CASE("thickness_smooth: a wedge stays a wedge and a high step is kept or spread by name") {
   const GlFixture gl;
   const Texture wedge = gl.texture([](int x, int) { return 0.1 + 0.002 * x; });
   const Texture step = gl.texture([](int x, int) { return x < 32 ? 0.1 : 0.3; });

@@ -87,9 +87,7 @@ def test_a_sphere_in_parallel_view(renderer):
     discriminant = 0.16 - (x - 0.3) ** 2 - (y + 0.2) ** 2
     inside = discriminant > 0.003
     assert layers["depth"][inside] == pytest.approx(5 - np.sqrt(discriminant[inside]), rel=1e-5)
-    assert layers["thickness"][inside] == pytest.approx(
-        2 * np.sqrt(discriminant[inside]), rel=1e-4
-    )
+    assert layers["thickness"][inside] == pytest.approx(2 * np.sqrt(discriminant[inside]), rel=1e-4)
 
 
 def test_of_two_spheres_the_nearer_is_seen_and_the_chords_add(renderer):

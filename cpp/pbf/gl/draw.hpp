@@ -14,7 +14,8 @@ enum class Blend {
 /// Sets all of the state that drawing depends on here: blending, back faces culled, no depth test.
 void set_draw_state(Blend blend);
 
-/// Three vertices, of which glsl/fullscreen.vert makes a triangle that covers the target; replaces it.
+/// Three vertices, of which glsl/fullscreen.vert makes a triangle that covers the target; replaces
+/// it.
 void draw_fullscreen();
 
 }  // namespace pbf

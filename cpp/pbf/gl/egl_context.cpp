@@ -4,11 +4,10 @@
 #include "pbf/gl/egl_display.hpp"
 #include "pbf/gl/functions.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
 #include <mutex>
+#include <unistd.h>
 #include <vector>
 
 namespace pbf {
@@ -21,14 +20,16 @@ std::mutex& creation_lock() {
 }
 
 constexpr const char* kAfterFork =
-    "after fork() the graphics driver's threads are gone and it would wait for them for ever; start "
+    "after fork() the graphics driver's threads are gone and it would wait for them for ever; "
+    "start "
     "worker processes with the \"spawn\" method, or make no renderer before forking";
 
 void forbid_egl_after_fork() {
   static const int first_process = getpid();
   if (getpid() != first_process) {
     throw RendererUnavailable("EGL was started in process " + std::to_string(first_process) +
-                              ", this is its child " + std::to_string(getpid()) + ": " + kAfterFork);
+                              ", this is its child " + std::to_string(getpid()) + ": " +
+                              kAfterFork);
   }
 }
 
@@ -73,8 +74,8 @@ EGLContext create_core_context(EGLDisplay display, EGLConfig config) {
 
 /// A configuration is needed only where contexts do not work without one.
 EGLConfig pbuffer_config(EGLDisplay display) {
-  const std::array<EGLint, 5> wanted{
-      EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  const std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                                     EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   eglChooseConfig(display, wanted.data(), &config, 1, &count);

@@ -4,14 +4,14 @@
 
 namespace pbf {
 
-/// A headless OpenGL core context, 3.3 or newer. Platforms are tried in order: the EGL devices, hardware
-/// first, then the surfaceless platform; the environment variable PBF_EGL_DEVICE=<index> asks for one device.
-/// EGL displays are opened once per process and stay: eglTerminate would take them from every other context
-/// too.
+/// A headless OpenGL core context, 3.3 or newer. Platforms are tried in order: the EGL devices,
+/// hardware first, then the surfaceless platform; the environment variable PBF_EGL_DEVICE=<index>
+/// asks for one device. EGL displays are opened once per process and stay: eglTerminate would take
+/// them from every other context too.
 ///
-/// The context is current only while a Current lives, so any thread may use it, one at a time. After fork()
-/// the child can use neither it nor EGL, since the driver's threads stayed in the parent: every call says so
-/// instead of hanging.
+/// The context is current only while a Current lives, so any thread may use it, one at a time.
+/// After fork() the child can use neither it nor EGL, since the driver's threads stayed in the
+/// parent: every call says so instead of hanging.
 class EglContext {
  public:
   /// Throws RendererUnavailable with every attempt, what it failed with and the cure.

@@ -86,7 +86,8 @@ std::vector<EglPlatform> egl_platforms(std::vector<std::string>& notes) {
   load_egl_functions();
   std::vector<Device> devices = all_devices(notes);
   const std::optional<int> asked = asked_device(devices);
-  std::stable_partition(devices.begin(), devices.end(), [](const Device& d) { return !d.software; });
+  std::stable_partition(devices.begin(), devices.end(),
+                        [](const Device& d) { return !d.software; });
   std::vector<EglPlatform> platforms;
   for (const Device& device : devices) {
     if (!asked || device.index == *asked) {
@@ -117,20 +118,33 @@ EGLDisplay open_display(const EglPlatform& platform) {
 
 std::string egl_error_text() {
   switch (const EGLint error = eglGetError()) {
-    case EGL_SUCCESS: return "no error was given";
-    case 0x3001: return "EGL_NOT_INITIALIZED: no driver for it could be started";
-    case 0x3002: return "EGL_BAD_ACCESS: the context is current in another thread, or the device "
-                        "file may not be opened";
-    case 0x3003: return "EGL_BAD_ALLOC: out of memory or of contexts";
-    case 0x3004: return "EGL_BAD_ATTRIBUTE: an attribute is unknown to this EGL";
-    case 0x3005: return "EGL_BAD_CONFIG: no such framebuffer configuration";
-    case 0x3006: return "EGL_BAD_CONTEXT: no such context";
-    case 0x3008: return "EGL_BAD_DISPLAY: no such display";
-    case 0x3009: return "EGL_BAD_MATCH: this OpenGL version or configuration is not offered";
-    case 0x300C: return "EGL_BAD_PARAMETER: a parameter is invalid";
-    case 0x300D: return "EGL_BAD_SURFACE: no such surface";
-    case 0x300E: return "EGL_CONTEXT_LOST: the device was reset";
-    default: return "EGL error " + std::to_string(error);
+    case EGL_SUCCESS:
+      return "no error was given";
+    case 0x3001:
+      return "EGL_NOT_INITIALIZED: no driver for it could be started";
+    case 0x3002:
+      return "EGL_BAD_ACCESS: the context is current in another thread, or the device "
+             "file may not be opened";
+    case 0x3003:
+      return "EGL_BAD_ALLOC: out of memory or of contexts";
+    case 0x3004:
+      return "EGL_BAD_ATTRIBUTE: an attribute is unknown to this EGL";
+    case 0x3005:
+      return "EGL_BAD_CONFIG: no such framebuffer configuration";
+    case 0x3006:
+      return "EGL_BAD_CONTEXT: no such context";
+    case 0x3008:
+      return "EGL_BAD_DISPLAY: no such display";
+    case 0x3009:
+      return "EGL_BAD_MATCH: this OpenGL version or configuration is not offered";
+    case 0x300C:
+      return "EGL_BAD_PARAMETER: a parameter is invalid";
+    case 0x300D:
+      return "EGL_BAD_SURFACE: no such surface";
+    case 0x300E:
+      return "EGL_CONTEXT_LOST: the device was reset";
+    default:
+      return "EGL error " + std::to_string(error);
   }
 }
 

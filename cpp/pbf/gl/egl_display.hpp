@@ -18,8 +18,8 @@ struct EglPlatform {
 /// "no EGL device was found", go to `notes`.
 std::vector<EglPlatform> egl_platforms(std::vector<std::string>& notes);
 
-/// The initialized display of a platform, the same one each time. Null if it cannot be had: eglGetError
-/// knows why.
+/// The initialized display of a platform, the same one each time. Null if it cannot be had:
+/// eglGetError knows why.
 EGLDisplay open_display(const EglPlatform& platform);
 
 /// The last EGL error in words and what it usually means here.

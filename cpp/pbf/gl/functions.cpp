@@ -3,7 +3,6 @@
 #include "pbf/core/error.hpp"
 
 #include <dlfcn.h>
-
 #include <string>
 
 namespace pbf {

@@ -3,8 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// EGL and OpenGL as this library uses them: types, constants and calls, declared here so that no system
-/// header is needed, and found at run time so that nothing is linked. The names are Khronos'.
+/// EGL and OpenGL as this library uses them: types, constants and calls, declared here so that no
+/// system header is needed, and found at run time so that nothing is linked. The names are
+/// Khronos'.
 // NOLINTBEGIN(readability-identifier-naming)
 namespace pbf {
 
@@ -122,12 +123,13 @@ inline constexpr GLenum GL_DEBUG_OUTPUT = 0x92E0;
 #undef PBF_GL_OPTIONAL
 #undef PBF_DECLARE
 
-/// Opens libEGL at the first call. Throws RendererUnavailable if there is none. Not thread-safe: the caller
-/// holds the lock of egl_context.cpp.
+/// Opens libEGL at the first call. Throws RendererUnavailable if there is none. Not thread-safe:
+/// the caller holds the lock of egl_context.cpp.
 void load_egl_functions();
 
-/// Looks up the OpenGL calls at the first call; needs the EGL calls. Throws RendererUnavailable for one that
-/// is missing. EGL gives the same address for every context, so the table is the process's.
+/// Looks up the OpenGL calls at the first call; needs the EGL calls. Throws RendererUnavailable for
+/// one that is missing. EGL gives the same address for every context, so the table is the
+/// process's.
 void load_gl_functions();
 
 }  // namespace pbf

@@ -1,11 +1,12 @@
-// The EGL and OpenGL calls in use: PBF_EGL / PBF_GL(result, name, arguments). One marked OPTIONAL is newer
-// than OpenGL 3.3 or an extension, and used only where the driver says that it has it.
+// The EGL and OpenGL calls in use: PBF_EGL / PBF_GL(result, name, arguments). One marked OPTIONAL
+// is newer than OpenGL 3.3 or an extension, and used only where the driver says that it has it.
 
 #ifdef PBF_EGL
 PBF_EGL(EGLBoolean, eglBindAPI, (EGLenum api))
-PBF_EGL(EGLBoolean,
-        eglChooseConfig,
-        (EGLDisplay display, const EGLint* attributes, EGLConfig* configs, EGLint size, EGLint* count))
+PBF_EGL(
+    EGLBoolean,
+    eglChooseConfig,
+    (EGLDisplay display, const EGLint* attributes, EGLConfig* configs, EGLint size, EGLint* count))
 PBF_EGL(EGLContext,
         eglCreateContext,
         (EGLDisplay display, EGLConfig config, EGLContext share, const EGLint* attributes))

@@ -6,8 +6,8 @@
 
 namespace pbf {
 
-/// Owns one OpenGL name. Move-only; a moved-from handle is 0. Make and destroy it while its context is
-/// current.
+/// Owns one OpenGL name. Move-only; a moved-from handle is 0. Make and destroy it while its context
+/// is current.
 template <class Kind>
 class GlHandle {
  public:

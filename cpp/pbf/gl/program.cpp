@@ -37,8 +37,8 @@ std::string info_log(GLuint name, Get get, GetLog get_log) {
   return log;
 }
 
-/// File k of a stage has the lines from k * kFileLines on: `#line` could number files as well, but Mesa
-/// loses that number.
+/// File k of a stage has the lines from k * kFileLines on: `#line` could number files as well, but
+/// Mesa loses that number.
 constexpr int kFileLines = 10'000;
 
 /// Drivers write a line as `0:23(5): …` (Mesa), `0(23) : …` (NVIDIA) or `ERROR: 0:23: …`.
@@ -52,10 +52,10 @@ std::string located(const std::string& log,
   const auto file = static_cast<std::size_t>(number / kFileLines);
   const int line = number % kFileLines;
   if (file >= names.size()) return names.back() + ": " + log;
-  const std::string readable =
-      std::regex_replace(log, std::regex("\\b" + std::to_string(number) + "\\b"), std::to_string(line));
-  return names[file] + ":" + std::to_string(line) + ": does not compile\n  " + std::to_string(line) +
-         " | " + nth_line(texts[file], line) + "\n" + readable;
+  const std::string readable = std::regex_replace(
+      log, std::regex("\\b" + std::to_string(number) + "\\b"), std::to_string(line));
+  return names[file] + ":" + std::to_string(line) + ": does not compile\n  " +
+         std::to_string(line) + " | " + nth_line(texts[file], line) + "\n" + readable;
 }
 
 void compile(const ShaderObject& shader,
@@ -76,7 +76,8 @@ void compile(const ShaderObject& shader,
   GLint ok = 0;
   glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
   if (ok == 0) {
-    throw GlError(located(info_log(shader.name(), glGetShaderiv, glGetShaderInfoLog), names, texts));
+    throw GlError(
+        located(info_log(shader.name(), glGetShaderiv, glGetShaderInfoLog), names, texts));
   }
 }
 

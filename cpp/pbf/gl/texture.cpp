@@ -9,9 +9,12 @@ struct Layout {
 
 Layout layout_of(Format format) {
   switch (format) {
-    case Format::r32f: return {GL_R32F, GL_RED, GL_FLOAT};
-    case Format::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
-    case Format::rgba8: break;
+    case Format::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT};
+    case Format::rgba32f:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::rgba8:
+      break;
   }
   return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 }

@@ -32,9 +32,10 @@ void Camera::check_together(Faults& faults) const {
   } else if (!(up.norm() > 0)) {
     faults.add("up", up, "", "must not be zero; (0, 1, 0) for a scene whose y points up");
   } else if (view_axis.normalized().cross(up.normalized()).norm() < 1e-4F) {
-    faults.add("up", up, "",
-               "must not be parallel to the viewing direction; give another axis, such as (0, 0, -1) "
-               "to look straight down y");
+    faults.add(
+        "up", up, "",
+        "must not be parallel to the viewing direction; give another axis, such as (0, 0, -1) "
+        "to look straight down y");
   }
   if (!(near < far)) faults.add("near", near, "m", "must be less than far = " + to_text(far));
 }

@@ -4,8 +4,8 @@
 
 namespace pbf {
 
-/// Where the picture is taken from. In eye space x points right, y up and z out of the picture: what is
-/// seen has negative z; depth is -z [m].
+/// Where the picture is taken from. In eye space x points right, y up and z out of the picture:
+/// what is seen has negative z; depth is -z [m].
 struct Camera {
   Vec3 eye{3.0F, 2.0F, 3.0F};
   Vec3 target{0.0F, 0.0F, 0.0F};

@@ -86,14 +86,14 @@ struct FluidRenderer::Targets {
         normal(w, h, Format::rgba32f),
         color(w, h, Format::rgba8),
         tiles(w, h) {}
-  Target depth, thickness;            ///< affine depth; [m]
-  Framebuffer depth_and_thickness;    ///< both of these at once
-  Target between;                     ///< a filter's first half
-  Target depth_smooth;                ///< affine depth
-  Target thickness_smooth;            ///< [m]
-  Target normal;                      ///< eye space
-  Target color;                       ///< sRGB
-  FluidTiles tiles;                   ///< where any of these can hold fluid
+  Target depth, thickness;          ///< affine depth; [m]
+  Framebuffer depth_and_thickness;  ///< both of these at once
+  Target between;                   ///< a filter's first half
+  Target depth_smooth;              ///< affine depth
+  Target thickness_smooth;          ///< [m]
+  Target normal;                    ///< eye space
+  Target color;                     ///< sRGB
+  FluidTiles tiles;                 ///< where any of these can hold fluid
 };
 
 FluidRenderer::FluidRenderer(int width, int height)
@@ -129,7 +129,9 @@ void FluidRenderer::stage(const char* name, F&& pass) {
   report_.milliseconds.emplace_back(name, time.count());
 }
 
-Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const RenderParams& params) {
+Surface FluidRenderer::draw(PointsView positions,
+                            const Camera& camera,
+                            const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
   report_ = {.particles = positions.cols(), .milliseconds = {}};
@@ -166,7 +168,9 @@ Surface FluidRenderer::draw(PointsView positions, const Camera& camera, const Re
   return {to.tiles, *depth, *thickness, to.normal.texture};
 }
 
-Image FluidRenderer::render(PointsView positions, const Camera& camera, const RenderParams& params) {
+Image FluidRenderer::render(PointsView positions,
+                            const Camera& camera,
+                            const RenderParams& params) {
   validate(camera);
   validate(params);
   require_finite(positions);
@@ -180,7 +184,9 @@ Image FluidRenderer::render(PointsView positions, const Camera& camera, const Re
   return image;
 }
 
-Layers FluidRenderer::layers(PointsView positions, const Camera& camera, const RenderParams& params) {
+Layers FluidRenderer::layers(PointsView positions,
+                             const Camera& camera,
+                             const RenderParams& params) {
   validate(camera);
   validate(params);
   require_finite(positions);

@@ -23,8 +23,8 @@ struct RenderReport {
 
 /// Draws particles as a fluid: screen-space rendering in six passes [vdL09].
 ///
-/// Any thread may use it, one at a time; several renderers may live in one thread or in several. In a
-/// process forked from the one that made it, every call throws GlError.
+/// Any thread may use it, one at a time; several renderers may live in one thread or in several. In
+/// a process forked from the one that made it, every call throws GlError.
 class FluidRenderer {
  public:
   /// Throws InvalidParameter for a size the driver cannot draw, RendererUnavailable without OpenGL.

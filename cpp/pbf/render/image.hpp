@@ -20,9 +20,9 @@ using Image = Pixels<std::uint8_t>;
 
 /// What the picture is made from.
 struct Layers {
-  Pixels<float> depth;             ///< front of the nearest sprite along the viewing axis [m], 0: none
-  Pixels<float> depth_smooth;      ///< [m], 0: none
-  Pixels<float> thickness;         ///< [m]
+  Pixels<float> depth;         ///< front of the nearest sprite along the viewing axis [m], 0: none
+  Pixels<float> depth_smooth;  ///< [m], 0: none
+  Pixels<float> thickness;     ///< [m]
   Pixels<float> thickness_smooth;  ///< [m]
   Pixels<float> normal;            ///< three channels, eye space, towards the viewer; 0: none
 };

@@ -46,29 +46,42 @@ struct RenderParams {
   Real exposure = 1.0F;
 
   // What the optional fields stand for when not given.
-  [[nodiscard]] Real volume_in_force() const;                 ///< [m³]
-  [[nodiscard]] Real smoothing_radius_in_force() const { return smoothing_radius.value_or(2.0F * radius); }
-  [[nodiscard]] Real smoothing_range_in_force() const { return smoothing_range.value_or(4.0F * radius); }
-  [[nodiscard]] Real thickness_radius_in_force() const { return thickness_radius.value_or(2.0F * radius); }
-  [[nodiscard]] Real thickness_range_in_force() const { return thickness_range.value_or(4.0F * radius); }
+  [[nodiscard]] Real volume_in_force() const;  ///< [m³]
+  [[nodiscard]] Real smoothing_radius_in_force() const {
+    return smoothing_radius.value_or(2.0F * radius);
+  }
+  [[nodiscard]] Real smoothing_range_in_force() const {
+    return smoothing_range.value_or(4.0F * radius);
+  }
+  [[nodiscard]] Real thickness_radius_in_force() const {
+    return thickness_radius.value_or(2.0F * radius);
+  }
+  [[nodiscard]] Real thickness_range_in_force() const {
+    return thickness_range.value_or(4.0F * radius);
+  }
 
   static constexpr const char* kName = "RenderParams";
   static auto fields() {
     using P = RenderParams;
     return std::tuple{
         Field{"radius", &P::radius, "m", inside(1e-7, 1e6),
-              "Radius of a particle's sprite. Sprites must overlap: the particle distance is a good value."},
+              "Radius of a particle's sprite. Sprites must overlap: the particle distance is a "
+              "good value."},
         Field{"particle_volume", &P::particle_volume, "m^3", inside(0, 1e18),
-              "Volume that a particle adds to the thickness, the sprite's own if not given. With the cube of "
+              "Volume that a particle adds to the thickness, the sprite's own if not given. With "
+              "the cube of "
               "the particle distance, thickness is the length of the path through the fluid."},
         Field{"smoothing", &P::smoothing, "", anything(),
-              "bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in "
+              "bilateral keeps steps of depth that are higher than smoothing_range, so that a drop "
+              "stays in "
               "front of what is behind it; gaussian melts them together."},
         Field{"smoothing_radius", &P::smoothing_radius, "m", inside(0, 1e6),
-              "Where the depth filter's kernel ends, 2 * radius if not given; its standard deviation is half "
+              "Where the depth filter's kernel ends, 2 * radius if not given; its standard "
+              "deviation is half "
               "of that. Larger is smoother and rounder."},
         Field{"smoothing_range", &P::smoothing_range, "m", inside(0, 1e6),
-              "Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not given."},
+              "Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not "
+              "given."},
         Field{"smoothing_iterations", &P::smoothing_iterations, "", between(0, 16),
               "How often the depth filter runs. More is smoother and slower."},
         Field{"thickness_smoothing", &P::thickness_smoothing, "", anything(),
@@ -80,23 +93,27 @@ struct RenderParams {
         Field{"thickness_iterations", &P::thickness_iterations, "", between(0, 16),
               "How often the thickness filter runs."},
         Field{"absorption", &P::absorption, "1/m", between(0, 1e6),
-              "Share of red, green and blue light lost per meter (Beer-Lambert). Larger is darker and more "
+              "Share of red, green and blue light lost per meter (Beer-Lambert). Larger is darker "
+              "and more "
               "colorful."},
         Field{"scatter", &P::scatter, "", between(0, 1),
               "Color that deep fluid glows with instead of turning black."},
         Field{"refractive_index", &P::refractive_index, "", between(1, 4),
-              "1.333 for water. Bends what is seen through the fluid and makes its surface a mirror."},
+              "1.333 for water. Bends what is seen through the fluid and makes its surface a "
+              "mirror."},
         Field{"background", &P::background, "", anything(),
               "sky: a bright sky with a sun. plain: background_color everywhere."},
         Field{"background_color", &P::background_color, "", between(0, 1),
               "Color of the plain background."},
         Field{"sun_direction", &P::sun_direction, "", between(-1e6, 1e6),
               "Towards the sun. Any length but zero."},
-        Field{"up", &P::up, "", between(-1e6, 1e6),
-              "Up in the scene: the floor lies across it, the zenith is there. Any length but zero."},
+        Field{
+            "up", &P::up, "", between(-1e6, 1e6),
+            "Up in the scene: the floor lies across it, the zenith is there. Any length but zero."},
         Field{"floor", &P::floor, "", anything(), "Whether a floor is drawn."},
         Field{"floor_height", &P::floor_height, "m", between(-1e9, 1e9),
-              "Where the floor lies along up; the bottom of the tank if not given, without a tank 0."},
+              "Where the floor lies along up; the bottom of the tank if not given, without a tank "
+              "0."},
         Field{"tank_lower", &P::tank_lower, "m", between(-1e9, 1e9),
               "A corner of the tank whose edges are drawn; none if not given."},
         Field{"tank_upper", &P::tank_upper, "m", between(-1e9, 1e9), "The opposite corner."},

@@ -48,10 +48,11 @@ void set_environment(const Program& program, const Camera& camera, const RenderP
 }  // namespace
 
 Composite::Composite(const GlslSource& source)
-    : background_(source,
-                  {.vertex = {"fullscreen.vert"},
-                   .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "background.frag"},
-                   .defines = {}}),
+    : background_(
+          source,
+          {.vertex = {"fullscreen.vert"},
+           .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "background.frag"},
+           .defines = {}}),
       fluid_(source,
              {.vertex = {"frame.glsl", "fluid_tiles.vert"},
               .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "composite.frag"},
@@ -81,6 +82,7 @@ void Composite::operator()(const Surface& surface,
   fluid_.set("u_absorption", params.absorption);
   fluid_.set("u_scatter", params.scatter);
   fluid_.set("u_refractive_index", params.refractive_index);
+  fluid_.set("u_radius", params.radius);
   const Real disc = std::numbers::pi_v<Real> * params.radius * params.radius;
   fluid_.set("u_sprite_thickness", params.volume_in_force() / disc);
   surface.tiles.draw();

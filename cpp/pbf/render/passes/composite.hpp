@@ -16,9 +16,9 @@ struct Surface {
   const Texture& normal;
 };
 
-/// The picture: sky, floor and fluid. At the fluid's surface light is mirrored and bent (Fresnel, Snell);
-/// what comes through is absorbed along the thickness (Beer-Lambert). The tank's edges are drawn over it,
-/// or seen through the fluid.
+/// The picture: sky, floor and fluid. At the fluid's surface light is mirrored and bent (Fresnel,
+/// Snell); what comes through is absorbed along the thickness (Beer-Lambert). The tank's edges are
+/// drawn over it, or seen through the fluid.
 class Composite {
  public:
   explicit Composite(const GlslSource& source);

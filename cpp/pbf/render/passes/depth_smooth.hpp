@@ -7,12 +7,13 @@
 
 namespace pbf {
 
-/// Smooths affine depth so that single spheres vanish: along the rows, then along the columns, by local
-/// straight-line fits (glsl/smooth.glsl). The kernel's radius is a length in the scene.
+/// Smooths affine depth so that single spheres vanish: along the rows, then along the columns, by
+/// local straight-line fits (glsl/smooth.glsl). The kernel's radius is a length in the scene.
 class DepthSmooth {
  public:
   explicit DepthSmooth(const GlslSource& source);
-  /// One iteration. @param between, out  r32f targets; `between_texture` is what `between` draws into.
+  /// One iteration. @param between, out  r32f targets; `between_texture` is what `between` draws
+  /// into.
   void operator()(const FluidTiles& tiles,
                   const Texture& depth,
                   const RenderParams& params,

@@ -12,7 +12,8 @@ struct Span {
   int first, last;
 };
 
-/// Tiles between two image coordinates in [-1, 1] across `pixels` pixels, a pixel of margin on each side.
+/// Tiles between two image coordinates in [-1, 1] across `pixels` pixels, a pixel of margin on each
+/// side.
 Span tiles_between(float low, float high, int pixels, int tiles) {
   const auto tile = [&](float ndc, float margin) {
     const float pixel = (0.5F * std::clamp(ndc, -2.0F, 2.0F) + 0.5F) * static_cast<float>(pixels);

@@ -7,8 +7,9 @@
 
 namespace pbf {
 
-/// The squares of the picture in which there may be fluid. Passes over the picture draw only these: a
-/// software rasterizer works off every branch of a shader at every pixel, so skipping has to happen before.
+/// The squares of the picture in which there may be fluid. Passes over the picture draw only these:
+/// a software rasterizer works off every branch of a shader at every pixel, so skipping has to
+/// happen before.
 class FluidTiles {
  public:
   static constexpr int kSide = 32;  ///< [pixels]

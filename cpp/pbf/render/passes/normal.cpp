@@ -8,7 +8,9 @@ Normal::Normal(const GlslSource& source)
                 .fragment = {"frame.glsl", "normal.frag"},
                 .defines = {}}) {}
 
-void Normal::operator()(const FluidTiles& tiles, const Texture& depth, const Framebuffer& out) const {
+void Normal::operator()(const FluidTiles& tiles,
+                        const Texture& depth,
+                        const Framebuffer& out) const {
   program_.use();
   program_.set("u_values", 0);
   depth.bind(0);

@@ -6,8 +6,8 @@
 
 namespace pbf {
 
-/// Normals in eye space from differences of the positions that smoothed depth stands for; exact on a plane
-/// at any field of view, and at a silhouette from the side that belongs to the surface.
+/// Normals in eye space from differences of the positions that smoothed depth stands for; exact on
+/// a plane at any field of view, and at a silhouette from the side that belongs to the surface.
 class Normal {
  public:
   explicit Normal(const GlslSource& source);

@@ -7,15 +7,16 @@
 
 namespace pbf {
 
-/// Front of the nearest sphere at each pixel, exactly where the viewing ray enters it, as affine depth
-/// (glsl/frame.glsl). MAX blending takes the nearest: without a depth buffer that is a third faster in a
-/// software rasterizer than gl_FragDepth.
-/// Where each target can blend in its own way (OpenGL 4.0) the thickness comes along in a second target:
-/// hitting each sphere once is cheaper than twice.
+/// Front of the nearest sphere at each pixel, exactly where the viewing ray enters it, as affine
+/// depth (glsl/frame.glsl). MAX blending takes the nearest: without a depth buffer that is a third
+/// faster in a software rasterizer than gl_FragDepth. Where each target can blend in its own way
+/// (OpenGL 4.0) the thickness comes along in a second target: hitting each sphere once is cheaper
+/// than twice.
 class SphereDepth {
  public:
   explicit SphereDepth(const GlslSource& source, bool with_thickness);
-  /// @param out  r32f affine depth, and r32f thickness [m] if with_thickness; both are cleared first
+  /// @param out  r32f affine depth, and r32f thickness [m] if with_thickness; both are cleared
+  /// first
   void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out) const;
 
  private:

@@ -7,9 +7,9 @@
 
 namespace pbf {
 
-/// Length of fluid along each pixel's ray [m]: every sprite adds chord · V / (4/3 π R³). Summed over the
-/// pixels of a parallel view that is the fluid's volume, whatever the sprites' radius.
-/// The pass for drivers that cannot add it while they find the depth; see SphereDepth.
+/// Length of fluid along each pixel's ray [m]: every sprite adds chord · V / (4/3 π R³). Summed
+/// over the pixels of a parallel view that is the fluid's volume, whatever the sprites' radius. The
+/// pass for drivers that cannot add it while they find the depth; see SphereDepth.
 class Thickness {
  public:
   explicit Thickness(const GlslSource& source);

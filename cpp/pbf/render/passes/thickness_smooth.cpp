@@ -9,12 +9,12 @@ ThicknessSmooth::ThicknessSmooth(const GlslSource& source)
                 .defines = {}}) {}
 
 void ThicknessSmooth::operator()(const FluidTiles& tiles,
-                             const Texture& thickness,
-                             const Texture& depth,
-                             const RenderParams& params,
-                             const Framebuffer& between,
-                             const Texture& between_texture,
-                             const Framebuffer& out) const {
+                                 const Texture& thickness,
+                                 const Texture& depth,
+                                 const RenderParams& params,
+                                 const Framebuffer& between,
+                                 const Texture& between_texture,
+                                 const Framebuffer& out) const {
   program_.use();
   program_.set("u_values", 0);
   program_.set("u_depth", 1);

@@ -7,12 +7,13 @@
 
 namespace pbf {
 
-/// Smooths thickness as DepthSmooth does depth; the depth says how many pixels the kernel's radius is.
-/// Pixels without fluid carry no weight.
+/// Smooths thickness as DepthSmooth does depth; the depth says how many pixels the kernel's radius
+/// is. Pixels without fluid carry no weight.
 class ThicknessSmooth {
  public:
   explicit ThicknessSmooth(const GlslSource& source);
-  /// One iteration. @param between, out  r32f targets; `between_texture` is what `between` draws into.
+  /// One iteration. @param between, out  r32f targets; `between_texture` is what `between` draws
+  /// into.
   void operator()(const FluidTiles& tiles,
                   const Texture& thickness,
                   const Texture& depth,
