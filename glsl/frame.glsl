@@ -10,7 +10,7 @@ layout(std140) uniform Frame {
   mat4 u_view;  // world to eye space
   // Half width and half height of what is seen (at depth 1 in perspective), near, far [m].
   vec4 u_lens;
-  // Width, height [pixels]; 1 perspective, 0 parallel; pixels per meter (at depth 1 in perspective).
+  // Width, height [pixels]; 1 perspective, 0 parallel; pixels per meter (perspective: at depth 1).
   vec4 u_size;
 };
 

@@ -2,7 +2,7 @@
 
     python bench/python/defaults.py [--seconds 2]
 
-prints a Markdown table for docs/defaults.md. Nothing in it depends on the machine but the last column.
+prints a Markdown table for docs/defaults.md. Only the last column depends on the machine.
 """
 
 from __future__ import annotations
@@ -76,16 +76,22 @@ CASES: list[Callable[[pbf.SolverParams, float], list[str]]] = [resting, dam_brea
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--seconds", type=float, default=2.0, help="simulated time of each case")
     seconds = parser.parse_args().seconds
-    print("| | column: volume | mean density | fastest m/s | dam break: mean compression | largest "
-          "| droplet: fastest m/s | radius | s |\n|---|---|---|---|---|---|---|---|---|")
+    print(
+        "| | column: volume | mean density | fastest m/s | dam break: mean compression | largest "
+        "| droplet: fastest m/s | radius | s |\n|---|---|---|---|---|---|---|---|---|"
+    )
     for name, changes in VARIANTS.items():
         solver = pbf.SolverParams(substeps=16, iterations=2).replace(**changes)
         start = time.perf_counter()
         cells = [cell for case in CASES for cell in case(solver, seconds)]
-        print("|", " | ".join([name, *cells, f"{time.perf_counter() - start:.0f}"]), "|", flush=True)
+        print(
+            "|", " | ".join([name, *cells, f"{time.perf_counter() - start:.0f}"]), "|", flush=True
+        )
 
 
 if __name__ == "__main__":

@@ -149,7 +149,9 @@ def test_the_curl_of_a_rigid_rotation_is_twice_its_rate_in_the_bulk(
     x = lattice_block(7, D)
     rate = np.array([0.3, -0.5, 1.0])
     v = np.cross(rate, x)
-    plain = pbf.operators.curl(v, x, support_radius=H, kernel=kernel, corrected=False)[bulk(x, D, H)]
+    plain = pbf.operators.curl(v, x, support_radius=H, kernel=kernel, corrected=False)[
+        bulk(x, D, H)
+    ]
     np.testing.assert_allclose(plain, np.tile(2 * rate, (len(plain), 1)), rtol=off)
     corrected = pbf.operators.curl(v, x, support_radius=H, kernel=kernel)
     np.testing.assert_allclose(corrected, np.tile(2 * rate, (len(x), 1)), atol=1e-4)

@@ -362,7 +362,7 @@ def test_a_broken_shader_is_reported_with_file_and_line(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("size", [(0, 10), (10, -1), (10, 10**6)])
 def test_impossible_sizes_are_refused(size):
-    with pytest.raises(errors.InvalidParameter, match="(width|height) = -?[0-9]+ pixels: "):
+    with pytest.raises(errors.InvalidParameter, match=r"(width|height) = -?[0-9]+ pixels: "):
         pbf.Renderer(*size)
 
 

@@ -15,16 +15,17 @@ struct Discretization {
   Real V;                  ///< particle volume on the rest lattice                  [m³]
   Real ideal_denominator;  ///< D_ideal: Σ_k ‖∇_k C‖² on the rest lattice            [1/m²]
   std::optional<WallLattice> walls;
-  /// Where particle centers may be: the domain less half a spacing on every side, the radius of a particle. The
-  /// solver's wall pressure is half of what a mirrored neighbor would give (λ_k is not there to add), so left to
-  /// itself the first layer would settle a quarter of a spacing closer to the wall than on the rest lattice, and the
-  /// fluid would lose that volume.
+  /// Where particle centers may be: the domain less half a spacing on every side, the radius of a
+  /// particle. The solver's wall pressure is half of what a mirrored neighbor would give (λ_k is
+  /// not there to add), so left to itself the first layer would settle a quarter of a spacing closer
+  /// to the wall than on the rest lattice, and the fluid would lose that volume.
   std::optional<Box> centers;
 
   /// Collision detection and response: x moved to the nearest place that a particle can have.
   [[nodiscard]] Vec3 project(const Vec3& x) const { return centers ? centers->project(x) : x; }
 
-  /// x* ← project(x* + by), and the displacement u = x* − x with it: by more, or what a wall leaves.
+  /// x* ← project(x* + by), and the displacement u = x* − x with it: by more, or what a wall
+  /// leaves.
   template <class Column>
   void move(const Vec3& x, const Vec3& by, Column x_star, Column u) const {
     const Vec3 moved = x_star + by;

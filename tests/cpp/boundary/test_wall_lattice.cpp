@@ -12,7 +12,8 @@ namespace {
 constexpr Real kSpacing = 0.1F;
 constexpr Real kH = 0.2F;
 
-/// The lattice of a box whose sides are multiples of the spacing: one cubic lattice, less the box's inside.
+/// The lattice of a box whose sides are multiples of the spacing: one cubic lattice, less the box's
+/// inside.
 std::vector<Vec3> sites_by_brute_force(const Box& box, const Vec3& x) {
   std::vector<Vec3> sites;
   const Vec3 margin = Vec3::Constant(2 * kSpacing);
