@@ -33,9 +33,10 @@ bench:  ## time the step and the neighbor search
 	build/bench/bench/bench_step
 	build/bench/bench/bench_neighbors
 
-docs:  ## write the generated pages again
+docs:  ## write the generated pages and type stubs again
 	@scripts/setup.sh docs
 	python scripts/update_docs.py
+	python scripts/update_stubs.py
 
 clean:  ## remove what was built, simulated and installed here
 	rm -rf build out .venv

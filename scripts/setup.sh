@@ -131,5 +131,6 @@ once group-build pyproject.toml -- install_group build
 case $goal in
   test) once group-test pyproject.toml -- install_group test ;;
   lint) once group-lint pyproject.toml -- install_group lint ;;
+  docs) once group-stubs pyproject.toml -- install_group stubs ;;
 esac
 once package "${package_sources[@]}" -- install_package

@@ -226,7 +226,12 @@ def test_a_damaged_frame_is_named(run, tiny_file, tmp_path):
 
 def test_ctrl_c_ends_with_code_130_and_complete_files(tiny_file, tmp_path):
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "pbfluids", "run", str(tiny_file), "--out", str(out)]
+    # Tests that run in the background inherit that Ctrl-C is ignored; a user's shell does not.
+    code = (
+        "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler);"
+        "from pbfluids.cli import main; sys.exit(main())"
+    )
+    command = [sys.executable, "-c", code, "run", str(tiny_file), "--out", str(out)]
     command += ["--no-render", "--set", "duration=1e6"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
         while not (out / "particles/frame_00003.npz").exists():
