@@ -23,14 +23,14 @@ struct Choices<Background> {
 /// How the fluid is drawn. SI units; colors are linear, 0 to 1.
 struct RenderParams {
   Real radius = 0.02F;
-  std::optional<Real> particle_volume{};
+  std::optional<Real> particle_volume = std::nullopt;
   Smoothing smoothing = Smoothing::bilateral;
-  std::optional<Real> smoothing_radius{};
-  std::optional<Real> smoothing_range{};
+  std::optional<Real> smoothing_radius = std::nullopt;
+  std::optional<Real> smoothing_range = std::nullopt;
   int smoothing_iterations = 2;
   Smoothing thickness_smoothing = Smoothing::gaussian;
-  std::optional<Real> thickness_radius{};
-  std::optional<Real> thickness_range{};
+  std::optional<Real> thickness_radius = std::nullopt;
+  std::optional<Real> thickness_range = std::nullopt;
   int thickness_iterations = 1;
   Vec3 absorption{7.0F, 2.0F, 1.0F};
   Vec3 scatter{0.015F, 0.12F, 0.19F};
@@ -40,9 +40,9 @@ struct RenderParams {
   Vec3 sun_direction{-0.45F, 0.8F, 0.35F};
   Vec3 up{0.0F, 1.0F, 0.0F};
   bool floor = true;
-  std::optional<Real> floor_height{};
-  std::optional<Vec3> tank_lower{};
-  std::optional<Vec3> tank_upper{};
+  std::optional<Real> floor_height = std::nullopt;
+  std::optional<Vec3> tank_lower = std::nullopt;
+  std::optional<Vec3> tank_upper = std::nullopt;
   Real exposure = 1.0F;
 
   // What the optional fields stand for when not given.

@@ -615,7 +615,7 @@ class RenderParams:
     @property
     def smoothing_radius(self) -> float | None:
         """
-        Where the depth filter's kernel ends, 3 * radius if not given; its standard deviation is half of that. Larger is smoother and rounder.
+        Where the depth filter's kernel ends, 2 * radius if not given; its standard deviation is half of that. Larger is smoother and rounder.
         """
     @smoothing_radius.setter
     def smoothing_radius(
@@ -682,7 +682,7 @@ class RenderParams:
     @property
     def thickness_radius(self) -> float | None:
         """
-        As smoothing_radius, for the thickness.
+        As smoothing_radius, for the thickness; 2 * radius if not given.
         """
     @thickness_radius.setter
     def thickness_radius(
