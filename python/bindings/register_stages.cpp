@@ -2,6 +2,7 @@
 #include "pbf/fluid/predict.hpp"
 #include "pbf/fluid/vorticity.hpp"
 #include "pbf/fluid/xsph.hpp"
+#include "pbf/neighbors/reorder.hpp"
 
 #include "bind_params.hpp"
 #include "numpy_io.hpp"
@@ -26,26 +27,17 @@ struct Sorted {
     near.fluid.build(grid, x, disc.h, 0);
     near.boundary.build(disc.walls, x, 0);
   }
-  [[nodiscard]] Index place(Index k) const { return grid.order()[static_cast<std::size_t>(k)]; }
   [[nodiscard]] Points sort_points(const PointsView& a) const {
-    Points sorted(3, a.cols());
-    for (Index k = 0; k < a.cols(); ++k) sorted.col(k) = a.col(place(k));
-    return sorted;
+    return gathered(Points(a), grid.order());
   }
   [[nodiscard]] Scalars sort_scalars(const ScalarsView& a) const {
-    Scalars sorted(a.size());
-    for (Index k = 0; k < a.size(); ++k) sorted[k] = a[place(k)];
-    return sorted;
+    return gathered(Scalars(a), grid.order());
   }
   [[nodiscard]] py::array_t<float> unsort(const Points& sorted) const {
-    Points a(3, sorted.cols());
-    for (Index k = 0; k < sorted.cols(); ++k) a.col(place(k)) = sorted.col(k);
-    return points_to_numpy(std::move(a));
+    return points_to_numpy(scattered(sorted, grid.order()));
   }
   [[nodiscard]] py::array_t<float> unsort(const Scalars& sorted) const {
-    Scalars a(sorted.size());
-    for (Index k = 0; k < sorted.size(); ++k) a[place(k)] = sorted[k];
-    return scalars_to_numpy(std::move(a));
+    return scalars_to_numpy(scattered(sorted, grid.order()));
   }
 };
 
@@ -75,9 +67,7 @@ py::tuple neighbor_pairs(const py::object& positions, Real h) {
   const auto view = points_view(array);
   CellGrid grid;
   grid.build(view, h, 0);
-  Points sorted(3, view.cols());
-  for (Index k = 0; k < view.cols(); ++k)
-    sorted.col(k) = view.col(grid.order()[static_cast<std::size_t>(k)]);
+  const Points sorted = gathered(Points(view), grid.order());
   NeighborList list;
   list.build(grid, sorted, h, 0);
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;

@@ -3,22 +3,10 @@
 #include "pbf/core/parallel.hpp"
 #include "pbf/fluid/field_operators.hpp"
 #include "pbf/kernels/calibration.hpp"
+#include "pbf/neighbors/reorder.hpp"
 
 namespace pbf {
 namespace {
-
-template <class Array>
-Array in_cell_order(const Array& values, const std::vector<std::uint32_t>& order) {
-  Array sorted = values;
-  for (Index k = 0; k < static_cast<Index>(order.size()); ++k) {
-    if constexpr (Array::RowsAtCompileTime == 3) {
-      sorted.col(k) = values.col(order[static_cast<std::size_t>(k)]);
-    } else {
-      sorted[k] = values[order[static_cast<std::size_t>(k)]];
-    }
-  }
-  return sorted;
-}
 
 void require_count(Index got, Index expected) {
   if (got != expected) {
@@ -43,7 +31,7 @@ ParticleFields::ParticleFields(const PointsView& positions, Real h, const Option
   }
   if (!positions.allFinite()) throw InvalidParameter("positions: must be finite");
   grid_.build(positions, h, options.num_threads);
-  x_ = in_cell_order(Points(positions), grid_.order());
+  x_ = gathered(Points(positions), grid_.order());
   near_.build(grid_, x_, h, options.num_threads);
 }
 
@@ -71,7 +59,7 @@ Scalars ParticleFields::relative_density() const {
 
 Points ParticleFields::gradient(const ScalarsView& values) const {
   require_count(values.size(), size());
-  const Scalars A = in_cell_order(Scalars(values), grid_.order());
+  const Scalars A = gathered(Scalars(values), grid_.order());
   Points result(3, size());
   at_each([&](const auto& s, Index k, Index i) {
     const Vec3 grad = gradient_at(s, k, A);
@@ -82,7 +70,7 @@ Points ParticleFields::gradient(const ScalarsView& values) const {
 
 Eigen::Matrix<Real, 9, Eigen::Dynamic> ParticleFields::jacobian(const PointsView& values) const {
   require_count(values.cols(), size());
-  const Points a = in_cell_order(Points(values), grid_.order());
+  const Points a = gathered(Points(values), grid_.order());
   Eigen::Matrix<Real, 9, Eigen::Dynamic> result(9, size());
   at_each([&](const auto& s, Index k, Index i) {
     Mat3 J = jacobian_at(s, k, a);
@@ -109,7 +97,7 @@ Points ParticleFields::curl(const PointsView& values) const {
 
 Scalars ParticleFields::laplacian(const ScalarsView& values) const {
   require_count(values.size(), size());
-  const Scalars A = in_cell_order(Scalars(values), grid_.order());
+  const Scalars A = gathered(Scalars(values), grid_.order());
   Scalars result(size());
   at_each([&](const auto& s, Index k, Index i) { result[i] = laplacian_at(s, k, A); });
   return result;

@@ -6,6 +6,7 @@
 #include "pbf/fluid/predict.hpp"
 #include "pbf/fluid/vorticity.hpp"
 #include "pbf/fluid/xsph.hpp"
+#include "pbf/neighbors/reorder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,31 +20,12 @@ std::string particle_text(const PointsView& points, Index i) {
   return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
 }
 
-/// Numbers per particle in an array: 3 for points, 1 for scalars and ids.
-template <class Array>
-constexpr Index kPerParticle = Array::RowsAtCompileTime == 3 ? 3 : 1;
-
 /// to[k] = from[order[k]]
 template <class Array>
 void gather(const Array& from, const std::vector<std::uint32_t>& order, int threads, Array& to) {
-  constexpr Index kStride = kPerParticle<Array>;
   to.resizeLike(from);
-  parallel_for(static_cast<Index>(order.size()), threads, [&](Index k) {
-    const auto* source = from.data() + kStride * order[static_cast<std::size_t>(k)];
-    std::copy(source, source + kStride, to.data() + kStride * k);
-  });
-}
-
-/// result[ids[k]] = sorted[k]
-template <class Array>
-Array in_order_of_ids(const Array& sorted, const Ids& ids) {
-  constexpr Index kStride = kPerParticle<Array>;
-  Array result = sorted;
-  for (Index k = 0; k < ids.size(); ++k) {
-    std::copy(sorted.data() + kStride * k, sorted.data() + kStride * (k + 1),
-              result.data() + kStride * ids[k]);
-  }
-  return result;
+  parallel_for(static_cast<Index>(order.size()), threads,
+               [&](Index k) { copy_particle(from, order[static_cast<std::size_t>(k)], to, k); });
 }
 
 Ids consecutive(std::int64_t first, Index count) {
@@ -220,9 +202,9 @@ void Simulation::measure(StepReport& report) {
   report.max_density_error = std::max(0.0, static_cast<double>(relative_density_.maxCoeff()) - 1);
 }
 
-Points Simulation::positions() const { return in_order_of_ids(state_.x, state_.ids); }
-Points Simulation::velocities() const { return in_order_of_ids(state_.v, state_.ids); }
-Scalars Simulation::multipliers() const { return in_order_of_ids(state_.lambda, state_.ids); }
+Points Simulation::positions() const { return scattered(state_.x, state_.ids); }
+Points Simulation::velocities() const { return scattered(state_.v, state_.ids); }
+Scalars Simulation::multipliers() const { return scattered(state_.lambda, state_.ids); }
 Ids Simulation::ids() const { return consecutive(0, size()); }
 
 Scalars Simulation::densities() const {
@@ -231,18 +213,13 @@ Scalars Simulation::densities() const {
   const int threads = solver_.num_threads;
   CellGrid grid;
   grid.build(x, disc_.h, threads);
-  Points x_sorted;
-  gather(x, grid.order(), threads, x_sorted);
+  const Points x_sorted = gathered(x, grid.order());
   Neighborhood near;
   near.fluid.build(grid, x_sorted, disc_.h, threads);
   near.boundary.build(disc_.walls, x_sorted, threads);
   Scalars sorted;
   relative_densities(near, disc_, x_sorted, threads, sorted);
-  Scalars density(size());
-  for (Index k = 0; k < size(); ++k) {
-    density[grid.order()[static_cast<std::size_t>(k)]] = disc_.fluid.rest_density * sorted[k];
-  }
-  return density;
+  return disc_.fluid.rest_density * scattered(sorted, grid.order());
 }
 
 std::uint64_t Simulation::state_hash() const {
