@@ -17,8 +17,8 @@ struct Discretization {
   std::optional<WallLattice> walls;
   /// Where particle centers may be: the domain less half a spacing on every side, the radius of a
   /// particle. The solver's wall pressure is half of what a mirrored neighbor would give (λ_k is
-  /// not there to add), so left to itself the first layer would settle a quarter of a spacing closer
-  /// to the wall than on the rest lattice, and the fluid would lose that volume.
+  /// not there to add), so left to itself the first layer would settle a quarter of a spacing
+  /// closer to the wall than on the rest lattice, and the fluid would lose that volume.
   std::optional<Box> centers;
 
   /// Collision detection and response: x moved to the nearest place that a particle can have.
