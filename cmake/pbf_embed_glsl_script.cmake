@@ -10,7 +10,7 @@ foreach(path IN LISTS FILES)
   string(APPEND arrays "constexpr char ${identifier}[] = {\n${bytes}'\\0'};\n")
   string(APPEND entries "    {\"${name}\", ${identifier}},\n")
 endforeach()
-file(WRITE "${OUTPUT}" "// Generated from glsl/ at build time.
+file(WRITE "${OUTPUT}" "// Generated from glsl/ at build time. NOLINTBEGIN
 #include \"pbf/render/glsl_source.hpp\"
 
 namespace pbf {
@@ -23,4 +23,5 @@ ${entries}};
 std::span<const GlslFile> embedded_glsl() { return kFiles; }
 
 }  // namespace pbf
+// NOLINTEND
 ")

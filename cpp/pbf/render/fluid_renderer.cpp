@@ -33,7 +33,7 @@ void require_drawable(int width, int height) {
   }
 }
 
-void require_finite(PointsView positions) {
+void require_finite(const PointsView& positions) {
   for (Index i = 0; i < positions.cols(); ++i) {
     if (!positions.col(i).allFinite()) {
       throw InvalidParameter("positions: particle " + std::to_string(i) +
@@ -129,7 +129,7 @@ void FluidRenderer::stage(const char* name, F&& pass) {
   report_.milliseconds.emplace_back(name, time.count());
 }
 
-Surface FluidRenderer::draw(PointsView positions,
+Surface FluidRenderer::draw(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params) {
   Passes& pass = *passes_;
@@ -168,7 +168,7 @@ Surface FluidRenderer::draw(PointsView positions,
   return {to.tiles, *depth, *thickness, to.normal.texture};
 }
 
-Image FluidRenderer::render(PointsView positions,
+Image FluidRenderer::render(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params) {
   validate(camera);
@@ -184,7 +184,7 @@ Image FluidRenderer::render(PointsView positions,
   return image;
 }
 
-Layers FluidRenderer::layers(PointsView positions,
+Layers FluidRenderer::layers(const PointsView& positions,
                              const Camera& camera,
                              const RenderParams& params) {
   validate(camera);

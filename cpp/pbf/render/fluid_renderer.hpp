@@ -34,8 +34,8 @@ class FluidRenderer {
   FluidRenderer& operator=(const FluidRenderer&) = delete;
 
   /// @param positions  finite, column i is particle i [m]
-  Image render(PointsView positions, const Camera& camera, const RenderParams& params);
-  Layers layers(PointsView positions, const Camera& camera, const RenderParams& params);
+  Image render(const PointsView& positions, const Camera& camera, const RenderParams& params);
+  Layers layers(const PointsView& positions, const Camera& camera, const RenderParams& params);
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -48,7 +48,7 @@ class FluidRenderer {
  private:
   struct Passes;
   struct Targets;
-  Surface draw(PointsView positions, const Camera& camera, const RenderParams& params);
+  Surface draw(const PointsView& positions, const Camera& camera, const RenderParams& params);
   /// Runs a pass, and times it if that was asked for.
   template <class F>
   void stage(const char* name, F&& pass);

@@ -39,7 +39,7 @@ void FluidTiles::mark(int x0, int x1, int y0, int y1) {
   }
 }
 
-void FluidTiles::find(PointsView positions, const Camera& camera, Real radius) {
+void FluidTiles::find(const PointsView& positions, const Camera& camera, Real radius) {
   reached_.assign(static_cast<std::size_t>(columns_) * rows_, 0);
   const Eigen::Matrix4f view = camera.view();
   const float half_height = camera.half_height();

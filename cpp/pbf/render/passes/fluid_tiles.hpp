@@ -16,7 +16,7 @@ class FluidTiles {
 
   FluidTiles(int width, int height);
   /// Finds the squares that spheres of a radius [m] can reach.
-  void find(PointsView positions, const Camera& camera, Real radius);
+  void find(const PointsView& positions, const Camera& camera, Real radius);
   /// Replaces what is in these squares of the target; for programs with glsl/fluid_tiles.vert.
   void draw() const;
 

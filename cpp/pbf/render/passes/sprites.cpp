@@ -2,7 +2,7 @@
 
 namespace pbf {
 
-void Sprites::upload(PointsView positions) {
+void Sprites::upload(const PointsView& positions) {
   count_ = static_cast<GLsizei>(positions.cols());
   buffer_.upload(positions.data(), static_cast<GLsizeiptr>(positions.size() * sizeof(Real)));
 }

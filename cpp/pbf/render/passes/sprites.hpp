@@ -9,7 +9,7 @@ namespace pbf {
 class Sprites {
  public:
   Sprites() : buffer_(GL_ARRAY_BUFFER) { array_.point_instances(buffer_, 0); }
-  void upload(PointsView positions);
+  void upload(const PointsView& positions);
   void draw(Blend blend) const;
 
  private:
