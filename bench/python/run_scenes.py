@@ -61,7 +61,7 @@ def timed_run(name: str, threads: int, warm_up: int, steps: int) -> dict[str, ob
         "ms_median": f"{statistics.median(milliseconds):.3f}",
         "mean_density_error": f"{statistics.fmean(r.mean_density_error for r in reports):.5f}",
         "max_density_error": f"{max(r.max_density_error for r in reports):.5f}",
-        "hash": f"{simulation.state_hash():016x}",
+        "hash": simulation.state_hash(),
     }
 
 
