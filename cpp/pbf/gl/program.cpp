@@ -2,7 +2,9 @@
 
 #include "pbf/core/error.hpp"
 
-#include <regex>
+#include <algorithm>
+#include <cctype>
+#include <optional>
 #include <sstream>
 
 namespace pbf {
@@ -41,21 +43,40 @@ std::string info_log(GLuint name, Get get, GetLog get_log) {
 /// Mesa loses that number.
 constexpr int kFileLines = 10'000;
 
-/// Drivers write a line as `0:23(5): …` (Mesa), `0(23) : …` (NVIDIA) or `ERROR: 0:23: …`.
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// The line of the first complaint: behind a number and a colon or parenthesis. Drivers write
+/// `0:23(5): …` (Mesa), `0(23) : …` (NVIDIA) or `ERROR: 0:23: …`.
+std::optional<int> line_of(const std::string& log) {
+  for (std::size_t k = 1; k + 1 < log.size(); ++k) {
+    const bool behind_number = is_digit(log[k - 1]) && (log[k] == ':' || log[k] == '(');
+    if (behind_number && is_digit(log[k + 1])) return std::stoi(log.substr(k + 1, 9));
+  }
+  return std::nullopt;
+}
+
+/// `text` with the number `from` replaced where it stands whole.
+std::string with_number(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    const std::size_t end = at + from.size();
+    const bool whole =
+        (at == 0 || !is_digit(text[at - 1])) && (end == text.size() || !is_digit(text[end]));
+    if (whole) text.replace(at, from.size(), to);
+    at += whole ? to.size() : from.size();
+  }
+  return text;
+}
+
 std::string located(const std::string& log,
                     const std::vector<std::string>& names,
                     const std::vector<std::string>& texts) {
-  static const std::regex place(R"(\b\d+(?::(\d+)|\((\d+)\)))");
-  std::smatch match;
-  if (!std::regex_search(log, match, place)) return names.back() + ": " + log;
-  const int number = std::stoi(match[1].matched ? match[1] : match[2]);
-  const auto file = static_cast<std::size_t>(number / kFileLines);
-  const int line = number % kFileLines;
-  if (file >= names.size()) return names.back() + ": " + log;
-  const std::string readable = std::regex_replace(
-      log, std::regex("\\b" + std::to_string(number) + "\\b"), std::to_string(line));
-  return names[file] + ":" + std::to_string(line) + ": does not compile\n  " +
-         std::to_string(line) + " | " + nth_line(texts[file], line) + "\n" + readable;
+  const std::optional<int> number = line_of(log);
+  const auto file = static_cast<std::size_t>(number.value_or(0) / kFileLines);
+  if (!number || file >= names.size()) return names.back() + ": " + log;
+  const std::string line = std::to_string(*number % kFileLines);
+  return names[file] + ":" + line + ": does not compile\n  " + line + " | " +
+         nth_line(texts[file], *number % kFileLines) + "\n" +
+         with_number(log, std::to_string(*number), line);
 }
 
 void compile(const ShaderObject& shader,
