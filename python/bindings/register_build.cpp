@@ -1,3 +1,4 @@
+#include "pbf/core/isa.hpp"
 #include "pbf/core/threads.hpp"
 #include "pbf/core/types.hpp"
 
@@ -10,21 +11,6 @@
 namespace pbf {
 namespace {
 
-/// The instructions that this code was compiled for.
-const char* instruction_set() {
-#if defined(__AVX512F__)
-  return "AVX-512";
-#elif defined(__AVX2__)
-  return "AVX2";
-#elif defined(__SSE2__)
-  return "SSE2";
-#elif defined(__ARM_NEON)
-  return "NEON";
-#else
-  return "scalar";
-#endif
-}
-
 const char* compiler() {
 #if defined(__clang__)
   return "clang " __clang_version__;
@@ -36,7 +22,7 @@ const char* compiler() {
 std::map<std::string, std::string> build_info() {
   return {
       {"compiler", compiler()},
-      {"instruction_set", instruction_set()},
+      {"instruction_set", isa_name(chosen_isa())},
       {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
                     "." + std::to_string(EIGEN_MINOR_VERSION)},
   };
@@ -46,6 +32,14 @@ std::map<std::string, std::string> build_info() {
 
 void register_build(py::module_& m) {
   m.def("build_info", &build_info, "Compiler, instruction set and libraries of this build.");
+  m.def(
+      "instruction_sets",
+      [] {
+        std::vector<std::string> names;
+        for (const Isa isa : usable_isas()) names.emplace_back(isa_name(isa));
+        return names;
+      },
+      "Instruction sets that the solver is compiled for and this processor has, plainest first.");
   m.def("usable_threads", &usable_threads, "requested"_a,
         "Threads used for a request, 0 being all.");
 }

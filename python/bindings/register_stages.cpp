@@ -18,23 +18,19 @@ using OptionalBox = std::optional<Box>;
 /// Positions sorted by cell with their neighborhood, and the way back.
 struct Sorted {
   CellGrid grid;
-  Points x;
+  Records x;
   Neighborhood near;
 
   Sorted(const PointsView& positions, const Discretization& disc) {
-    grid.build(positions, disc.h, 0);
-    x = sort_points(positions);
-    near.fluid.build(grid, x, disc.h, 0);
-    near.boundary.build(disc.walls, x, 0);
+    grid.build(records_of(positions), disc.h, 0);
+    x = sort(positions);
+    near.build(grid, x, disc, 0);
   }
-  [[nodiscard]] Points sort_points(const PointsView& a) const {
-    return gathered(Points(a), grid.order());
+  [[nodiscard]] Records sort(const PointsView& a) const {
+    return records_of(gathered(Points(a), grid.order()));
   }
-  [[nodiscard]] Scalars sort_scalars(const ScalarsView& a) const {
-    return gathered(Scalars(a), grid.order());
-  }
-  [[nodiscard]] py::array_t<float> unsort(const Points& sorted) const {
-    return points_to_numpy(scattered(sorted, grid.order()));
+  [[nodiscard]] py::array_t<float> unsort(const Records& sorted) const {
+    return points_to_numpy(scattered(points_of(sorted), grid.order()));
   }
   [[nodiscard]] py::array_t<float> unsort(const Scalars& sorted) const {
     return scalars_to_numpy(scattered(sorted, grid.order()));
@@ -56,7 +52,7 @@ py::tuple kernel_of(const FluidParams& fluid, const py::object& r) {
     for (Index i = 0; i < view.cols(); ++i) {
       const Real r2 = view.col(i).squaredNorm();
       W[i] = kernel.W(r2);
-      grad.col(i) = kernel.grad_factor(r2) * view.col(i);
+      grad.col(i) = -kernel.slope(r2) * view.col(i);
     }
   });
   return py::make_tuple(scalars_to_numpy(std::move(W)), points_to_numpy(std::move(grad)));
@@ -66,10 +62,9 @@ py::tuple neighbor_pairs(const py::object& positions, Real h) {
   const FloatArray array = points_array(positions, "positions");
   const auto view = points_view(array);
   CellGrid grid;
-  grid.build(view, h, 0);
-  const Points sorted = gathered(Points(view), grid.order());
+  grid.build(records_of(view), h, 0);
   NeighborList list;
-  list.build(grid, sorted, h, 0);
+  list.build(grid, records_of(gathered(Points(view), grid.order())), h, 0);
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
   for (Index k = 0; k < list.size(); ++k) {
     for (const std::uint32_t j : list[k])
@@ -90,16 +85,17 @@ py::tuple boundary_particles(const py::object& positions,
   const FloatArray array = points_array(positions, "positions");
   const Discretization disc(fluid, box);
   BoundaryList list;
-  list.build(disc.walls, points_view(array), 0);
+  list.build(disc.walls, records_of(points_view(array)), 4, 0);
+  std::vector<Vec3> sites;
   Ids offsets(array.shape(0) + 1);
   offsets[0] = 0;
-  for (Index i = 0; i < array.shape(0); ++i)
-    offsets[i + 1] = offsets[i] + static_cast<Index>(list[i].size());
-  Points q(3, offsets[array.shape(0)]);
   for (Index i = 0; i < array.shape(0); ++i) {
-    for (std::size_t k = 0; k < list[i].size(); ++k)
-      q.col(offsets[i] + static_cast<Index>(k)) = list[i][k];
+    const std::vector<Vec3> row = list[i];
+    sites.insert(sites.end(), row.begin(), row.end());
+    offsets[i + 1] = static_cast<Index>(sites.size());
   }
+  Points q(3, static_cast<Index>(sites.size()));
+  for (Index k = 0; k < q.cols(); ++k) q.col(k) = sites[static_cast<std::size_t>(k)];
   const py::ssize_t n = offsets.size();
   return py::make_tuple(to_numpy(std::move(offsets), {n}), points_to_numpy(std::move(q)));
 }
@@ -112,11 +108,11 @@ py::tuple predict_stage(const py::object& positions,
   const FloatArray x = points_array(positions, "positions");
   const FloatArray v = points_array(velocities, "velocities");
   const Discretization disc(fluid, box);
-  Points x_star, u;
-  predict(points_view(x), points_view(v), disc, dt, 0, x_star, u);
+  Records x_star, u;
+  predict(records_of(points_view(x)), records_of(points_view(v)), disc, dt, 0, x_star, u);
   Points v_predicted = points_view(v).colwise() + Vec3(dt * fluid.gravity);
   return py::make_tuple(points_to_numpy(std::move(v_predicted)),
-                        points_to_numpy(std::move(x_star)));
+                        points_to_numpy(points_of(x_star)));
 }
 
 py::tuple multipliers_stage(const py::object& x_star,
@@ -126,10 +122,11 @@ py::tuple multipliers_stage(const py::object& x_star,
   const FloatArray x = points_array(x_star, "x_star");
   const Discretization disc(fluid, box);
   const Sorted sorted(points_view(x), disc);
-  Scalars relative_density, lambda;
-  solve_multipliers(sorted.near, disc, solver, sorted.x, relative_density, lambda);
-  const Scalars density = fluid.rest_density * relative_density;
-  return py::make_tuple(sorted.unsort(density), sorted.unsort(lambda));
+  Records density, x_lambda;
+  relative_densities(sorted.near, disc, sorted.x, 0, density);
+  solve_multipliers(sorted.near, disc, solver, sorted.x, x_lambda);
+  const Scalars rho = fluid.rest_density * scalars_of(density);
+  return py::make_tuple(sorted.unsort(rho), sorted.unsort(scalars_of(x_lambda)));
 }
 
 py::array_t<float> corrections_stage(const py::object& x_star,
@@ -140,11 +137,15 @@ py::array_t<float> corrections_stage(const py::object& x_star,
   const FloatArray x = points_array(x_star, "x_star");
   const FloatArray lambda = scalars_array(multipliers, "multipliers");
   require_rows(lambda, "multipliers", x.shape(0), "x_star");
-  const Discretization disc(fluid, box);
+  Discretization disc(fluid, box);
   const Sorted sorted(points_view(x), disc);
-  Points dp;
-  compute_corrections(sorted.near, disc, solver, sorted.x,
-                      sorted.sort_scalars(scalars_view(lambda)), dp);
+  Records x_lambda = sorted.x;
+  for (Index k = 0; k < x_lambda.size(); ++k)
+    x_lambda[k].w = lambda.at(sorted.grid.order()[static_cast<std::size_t>(k)]);
+  // Without collision a particle that starts from no displacement ends with its correction.
+  disc.centers.reset();
+  Records moved(sorted.x.size()), dp(sorted.x.size());
+  apply_corrections(sorted.near, disc, solver, x_lambda, sorted.x, moved, dp);
   return sorted.unsort(dp);
 }
 
@@ -165,8 +166,8 @@ py::array_t<float> vorticity_stage(const py::object& positions,
   require_rows(v, "velocities", x.shape(0), "positions");
   const Discretization disc(fluid);
   const Sorted sorted(points_view(x), disc);
-  Points omega;
-  compute_vorticity(sorted.near, disc, sorted.x, sorted.sort_points(points_view(v)), 0, omega);
+  Records omega, x_strength;
+  compute_vorticity(sorted.near, disc, sorted.x, sorted.sort(points_view(v)), 0, omega, x_strength);
   return sorted.unsort(omega);
 }
 
@@ -183,9 +184,10 @@ py::array_t<float> confine_stage(const py::object& positions,
   require_rows(omega, "omega", x.shape(0), "positions");
   const Discretization disc(fluid);
   const Sorted sorted(points_view(x), disc);
-  Points v_new = sorted.sort_points(points_view(v));
-  confine_vorticity(sorted.near, disc, sorted.x, sorted.sort_points(points_view(omega)), strength,
-                    dt, 0, v_new);
+  Records v_new = sorted.sort(points_view(v)), x_strength = sorted.x;
+  const Records omega_sorted = sorted.sort(points_view(omega));
+  for (Index k = 0; k < x_strength.size(); ++k) x_strength[k].w = vec3(omega_sorted[k]).norm();
+  confine_vorticity(sorted.near, disc, x_strength, omega_sorted, strength, dt, 0, v_new);
   return sorted.unsort(v_new);
 }
 
@@ -198,9 +200,8 @@ py::array_t<float> xsph_stage(const py::object& positions,
   require_rows(v, "velocities", x.shape(0), "positions");
   const Discretization disc(fluid);
   const Sorted sorted(points_view(x), disc);
-  Points v_new;
-  smooth_velocities(sorted.near, disc, sorted.x, sorted.sort_points(points_view(v)), strength, 0,
-                    v_new);
+  Records v_new;
+  smooth_velocities(sorted.near, disc, sorted.x, sorted.sort(points_view(v)), strength, 0, v_new);
   return sorted.unsort(v_new);
 }
 

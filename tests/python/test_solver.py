@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from reference.samples import bulk, jittered_block, lattice_block
 
 import pbfluids as pbf
-from pbfluids import errors
+from pbfluids import _core, errors
 from pbfluids._core import stages
 
 EPS = float(np.finfo(np.float32).eps)
@@ -177,6 +177,30 @@ def test_the_state_has_the_same_bits_for_any_number_of_threads() -> None:
     once = hash_after_fifty_steps(1)
     for num_threads in (2, 3, 4, 7, 16):
         assert hash_after_fifty_steps(num_threads) == once
+
+
+def test_the_state_has_the_same_bits_for_any_instruction_set(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hashes = set()
+    for isa in _core.instruction_sets():
+        monkeypatch.setenv("PBF_ISA", isa)
+        simulation = small_dam_break()
+        for _ in range(50):
+            simulation.step(0.002)
+        hashes.add(simulation.state_hash())
+    assert len(hashes) == 1
+
+
+def test_an_unknown_instruction_set_is_refused_and_changes_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    simulation = small_dam_break()
+    before = simulation.state_hash()
+    monkeypatch.setenv("PBF_ISA", "mmx")
+    with pytest.raises(errors.InvalidParameter, match='PBF_ISA = "mmx": must be one of'):
+        simulation.step(0.002)
+    assert simulation.state_hash() == before
 
 
 def test_a_frame_is_its_substeps() -> None:

@@ -1,24 +1,29 @@
 #pragma once
 
 #include "pbf/boundary/wall_lattice.hpp"
-#include "pbf/neighbors/neighbor_list.hpp"
+#include "pbf/core/records.hpp"
+#include "pbf/neighbors/sliced_rows.hpp"
 
 #include <optional>
-#include <span>
 
 namespace pbf {
 
 /// For each particle the boundary particles within h; they do not move, so their positions are the
-/// list.
+/// list: a slot holds the x of its lanes, then the y, then the z.
 class BoundaryList {
  public:
   /// Without walls every row is empty.
-  void build(const std::optional<WallLattice>& walls, const PointsView& x, int threads);
+  /// @param lanes  particles in a slice
+  void build(const std::optional<WallLattice>& walls, const Records& x, int lanes, int threads);
 
-  [[nodiscard]] std::span<const Vec3> operator[](Index i) const { return rows_[i]; }
+  [[nodiscard]] Index size() const { return rows_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return rows_.bytes(); }
+  [[nodiscard]] SliceView<Real> view(Index first) const { return rows_.view(first); }
+  /// Positions of the boundary particles near i.
+  [[nodiscard]] std::vector<Vec3> operator[](Index i) const;
 
  private:
-  Rows<Vec3> rows_;
+  SlicedRows<Real> rows_;
 };
 
 }  // namespace pbf

@@ -1,13 +1,10 @@
 #pragma once
 
+#include "pbf/core/real.hpp"
+
 #include <Eigen/Core>
 
-#include <cstdint>
-
 namespace pbf {
-
-using Real = float;
-using Index = Eigen::Index;
 
 using Vec3 = Eigen::Matrix<Real, 3, 1>;
 using Scalars = Eigen::Array<Real, Eigen::Dynamic, 1>;
@@ -17,10 +14,6 @@ using Scalars = Eigen::Array<Real, Eigen::Dynamic, 1>;
 using Points = Eigen::Matrix<Real, 3, Eigen::Dynamic>;
 using PointsView = Eigen::Ref<const Points>;
 using ScalarsView = Eigen::Ref<const Scalars>;
-
-/// Particles handed to a thread at a time: large enough to hide the scheduler, small enough to
-/// balance a splash.
-inline constexpr Index kChunk = 256;
 
 using Ids = Eigen::Array<std::int64_t, Eigen::Dynamic, 1>;
 

@@ -29,4 +29,12 @@ Discretization::Discretization(const FluidParams& params, const std::optional<Bo
   walls.emplace(*domain, params.spacing, h);
 }
 
+void Neighborhood::build(const CellGrid& grid,
+                         const Records& x,
+                         const Discretization& disc,
+                         int threads) {
+  fluid.build(grid, x, disc.h, threads);
+  boundary.build(disc.walls, x, fluid.lanes(), threads);
+}
+
 }  // namespace pbf

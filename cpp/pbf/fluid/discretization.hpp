@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pbf/boundary/boundary_list.hpp"
+#include "pbf/core/types.hpp"
 #include "pbf/fluid/params.hpp"
 #include "pbf/kernels/calibration.hpp"
 #include "pbf/neighbors/neighbor_list.hpp"
@@ -24,18 +25,6 @@ struct Discretization {
   /// Collision detection and response: x moved to the nearest place that a particle can have.
   [[nodiscard]] Vec3 project(const Vec3& x) const { return centers ? centers->project(x) : x; }
 
-  /// x* ← project(x* + by), and the displacement u = x* − x with it: by more, or what a wall
-  /// leaves.
-  template <class Column>
-  void move(const Vec3& x, const Vec3& by, Column x_star, Column u) const {
-    const Vec3 moved = x_star + by;
-    const Vec3 allowed = project(moved);
-    for (int axis = 0; axis < 3; ++axis) {
-      u[axis] = allowed[axis] == moved[axis] ? u[axis] + by[axis] : allowed[axis] - x[axis];
-    }
-    x_star = allowed;
-  }
-
   /// Throws InvalidParameter if the parameters break a rule or the domain is thinner than a
   /// particle.
   explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});
@@ -45,6 +34,9 @@ struct Discretization {
 struct Neighborhood {
   NeighborList fluid;
   BoundaryList boundary;
+
+  /// @param grid  built from x before it was sorted
+  void build(const CellGrid& grid, const Records& x, const Discretization& disc, int threads);
 };
 
 }  // namespace pbf

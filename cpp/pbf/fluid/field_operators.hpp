@@ -31,7 +31,7 @@ struct FieldSample {
     const Vec3 x_i = x.col(i);
     for (const std::uint32_t j : near[i]) {
       const Vec3 r = x_i - x.col(j);
-      f(j, Vec3(kernel.grad_factor(r.squaredNorm()) * r), r);
+      f(j, Vec3(-kernel.slope(r.squaredNorm()) * r), r);
     }
   }
 };

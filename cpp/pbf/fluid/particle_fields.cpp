@@ -30,9 +30,9 @@ ParticleFields::ParticleFields(const PointsView& positions, Real h, const Option
     options_.volume = static_cast<Real>(calibrate(options.kernel, radius / 2, radius).volume);
   }
   if (!positions.allFinite()) throw InvalidParameter("positions: must be finite");
-  grid_.build(positions, h, options.num_threads);
+  grid_.build(records_of(positions), h, options.num_threads);
   x_ = gathered(Points(positions), grid_.order());
-  near_.build(grid_, x_, h, options.num_threads);
+  near_.build(grid_, records_of(x_), h, options.num_threads);
 }
 
 /// Calls f(sample, k, i) for the particle at place k of the cell order, which is i outside.
@@ -49,7 +49,7 @@ void ParticleFields::at_each(F&& f) const {
 Scalars ParticleFields::relative_density() const {
   Scalars result(size());
   at_each([&](const auto& s, Index k, Index i) {
-    Real sum_W = s.kernel.W(0);
+    Real sum_W = s.kernel.W(Real(0));
     for (const std::uint32_t j : near_[k])
       sum_W += s.kernel.W((x_.col(k) - x_.col(j)).squaredNorm());
     result[i] = s.V * sum_W;

@@ -11,15 +11,15 @@ namespace pbf {
 /// u is kept beside x* and added up from its parts. The difference of the positions would carry
 /// their rounding into the velocities, EPS ‖x‖/dt, alike for all particles that share a coordinate:
 /// drops in open space would gain momentum, the more the farther from the origin.
-void predict(const PointsView& x,
-             const PointsView& v,
+void predict(const Records& x,
+             const Records& v,
              const Discretization& disc,
              Real dt,
              int threads,
-             Points& x_star,
-             Points& u);
+             Records& x_star,
+             Records& u);
 
 /// v = u/dt = (x* − x)/dt   Algorithm 1, line 20 [MM13].
-void update_velocity(const PointsView& u, Real dt, int threads, Points& v);
+void update_velocity(const Records& u, Real dt, int threads, Records& v);
 
 }  // namespace pbf

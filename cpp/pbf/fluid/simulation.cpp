@@ -20,12 +20,14 @@ std::string particle_text(const PointsView& points, Index i) {
   return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
 }
 
-/// to[k] = from[order[k]]
+/// to[k] = from[order[k]], and from has it then
 template <class Array>
-void gather(const Array& from, const std::vector<std::uint32_t>& order, int threads, Array& to) {
-  to.resizeLike(from);
-  parallel_for(static_cast<Index>(order.size()), threads,
-               [&](Index k) { copy_particle(from, order[static_cast<std::size_t>(k)], to, k); });
+void sort(Array& from, const std::vector<std::uint32_t>& order, int threads, Array& to) {
+  to.resize(from.size());
+  parallel_for(static_cast<Index>(order.size()), threads, [&](Index k) {
+    to[static_cast<std::size_t>(k)] = from[order[static_cast<std::size_t>(k)]];
+  });
+  from.swap(to);
 }
 
 Ids consecutive(std::int64_t first, Index count) {
@@ -72,21 +74,24 @@ Ids Simulation::add_particles(const PointsView& positions,
   }
 
   const Index before = size();
-  Ids new_ids = consecutive(before, added);
-  State state;
-  state.x.resize(3, before + added);
-  state.v.setZero(3, before + added);
-  state.ids.resize(before + added);
-  state.lambda.setZero(before + added);
-  state.x.leftCols(before) = state_.x;
-  state.v.leftCols(before) = state_.v;
-  state.ids.head(before) = state_.ids;
-  state.lambda.head(before) = state_.lambda;
-  state.x.rightCols(added) = positions;
-  if (velocities) state.v.rightCols(added) = *velocities;
-  state.ids.tail(added) = new_ids;
+  if (before + added > kMostParticles) {
+    throw InvalidParameter("positions: " + std::to_string(before + added) +
+                           " particles are more than the " + std::to_string(kMostParticles) +
+                           " that a simulation can hold");
+  }
+  State state = state_;
+  state.x.resize(before + added);
+  state.v.resize(before + added);
+  state.ids.resize(static_cast<std::size_t>(before + added));
+  for (Index i = 0; i < added; ++i) {
+    const Vec3 x = positions.col(i);
+    const Vec3 v = velocities ? Vec3(velocities->col(i)) : Vec3(Vec3::Zero());
+    state.x[before + i] = {x[0], x[1], x[2], 0};
+    state.v[before + i] = {v[0], v[1], v[2], 0};
+    state.ids[static_cast<std::size_t>(before + i)] = static_cast<std::uint32_t>(before + i);
+  }
   state_ = std::move(state);
-  return new_ids;
+  return consecutive(before, added);
 }
 
 StepReport Simulation::step(Real dt) {
@@ -106,20 +111,16 @@ StepReport Simulation::step(Real dt) {
   }
   {
     const auto t = report.time(Stage::boundary);
-    near_.boundary.build(disc_.walls, x_star_, threads);
+    near_.boundary.build(disc_.walls, x_star_, near_.fluid.lanes(), threads);
   }
   for (int k = 0; k < solver_.iterations; ++k, ++report.iterations) {
     {
       const auto t = report.time(Stage::multipliers);
-      solve_multipliers(near_, disc_, solver_, x_star_, relative_density_, lambda_new_);
+      solve_multipliers(near_, disc_, solver_, x_star_, x_lambda_);
     }
     {
       const auto t = report.time(Stage::corrections);
-      compute_corrections(near_, disc_, solver_, x_star_, lambda_new_, dp_);
-    }
-    {
-      const auto t = report.time(Stage::collision);
-      apply_corrections(disc_, state_.x, dp_, threads, x_star_, u_);
+      apply_corrections(near_, disc_, solver_, x_lambda_, state_.x, x_star_, u_);
     }
   }
   {
@@ -128,13 +129,17 @@ StepReport Simulation::step(Real dt) {
   }
   if (solver_.vorticity > 0) {
     const auto t = report.time(Stage::vorticity);
-    compute_vorticity(near_, disc_, x_star_, v_new_, threads, omega_);
-    confine_vorticity(near_, disc_, x_star_, omega_, solver_.vorticity, dt, threads, v_new_);
+    Records &omega = u_, &x_strength = x_lambda_;
+    compute_vorticity(near_, disc_, x_star_, v_new_, threads, omega, x_strength);
+    confine_vorticity(near_, disc_, x_strength, omega, solver_.vorticity, dt, threads, v_new_);
   }
   if (solver_.xsph > 0) {
     const auto t = report.time(Stage::xsph);
-    smooth_velocities(near_, disc_, x_star_, v_new_, solver_.xsph, threads, dp_);
-    v_new_.swap(dp_);
+    smooth_velocities(near_, disc_, x_star_, v_new_, solver_.xsph, threads, u_);
+    v_new_.swap(u_);
+  } else {
+    const auto t = report.time(Stage::density);
+    relative_densities(near_, disc_, x_star_, threads, v_new_);
   }
   {
     const auto t = report.time(Stage::density);
@@ -142,7 +147,6 @@ StepReport Simulation::step(Real dt) {
   }
   state_.x.swap(x_star_);
   state_.v.swap(v_new_);
-  state_.lambda.swap(lambda_new_);
   time_ += static_cast<double>(dt);
   ++step_count_;
   return report;
@@ -161,65 +165,80 @@ StepReport Simulation::advance(Real seconds, const std::function<void()>& betwee
   return report;
 }
 
-/// Sorts the state by the cells of x*. All copies are made before anything is swapped, and which
-/// particle is which stays as it was: a step that fails here or later has changed nothing that can
-/// be seen.
+/// Sorts the state by the cells of x*. Which particle is which stays as it was: a step that fails
+/// here or later has changed nothing that can be seen.
 void Simulation::sort_by_cell() {
   const int threads = solver_.num_threads;
   grid_.build(x_star_, disc_.h, threads);
-  gather(state_.x, grid_.order(), threads, sorted_.x);
-  gather(state_.v, grid_.order(), threads, sorted_.v);
-  gather(state_.ids, grid_.order(), threads, sorted_.ids);
-  gather(state_.lambda, grid_.order(), threads, sorted_.lambda);
-  gather(x_star_, grid_.order(), threads, dp_);
-  gather(u_, grid_.order(), threads, omega_);
-  state_.x.swap(sorted_.x);
-  state_.v.swap(sorted_.v);
-  state_.ids.swap(sorted_.ids);
-  state_.lambda.swap(sorted_.lambda);
-  x_star_.swap(dp_);
-  u_.swap(omega_);
+  x_lambda_.resize(size());  // all memory first: a failure must not leave half of it sorted
+  sorted_ids_.resize(state_.ids.size());
+  sort(state_.x, grid_.order(), threads, x_lambda_);
+  sort(state_.v, grid_.order(), threads, x_lambda_);
+  sort(x_star_, grid_.order(), threads, x_lambda_);
+  sort(u_, grid_.order(), threads, x_lambda_);
+  sort(state_.ids, grid_.order(), threads, sorted_ids_);
 }
 
-/// Density errors at the positions the step ends with; throws if any number is not finite.
+/// Density errors at the positions the step ends with, from (v, ρ/ρ0); throws if any number is not
+/// finite.
 void Simulation::measure(StepReport& report) {
-  const Index n = x_star_.cols();
+  const Index n = size();
   if (n == 0) return;
-  relative_densities(near_, disc_, x_star_, solver_.num_threads, relative_density_);
-  const double broken = parallel_sum(n, solver_.num_threads, [&](Index i) {
-    return x_star_.col(i).allFinite() && v_new_.col(i).allFinite() ? 0.0 : 1.0;
+  struct Part {
+    double sum = 0, max = 0;
+    Index broken = 0;
+  };
+  std::vector<Part> parts(static_cast<std::size_t>((n + kChunk - 1) / kChunk));
+  parallel_chunks(n, solver_.num_threads, kChunk, [&](Index first, Index last) {
+    Part part;
+    for (Index i = first; i < last; ++i) {
+      const Record &x = x_star_[i], &v = v_new_[i];
+      part.broken += std::isfinite(x.x + x.y + x.z + v.x + v.y + v.z + v.w) ? 0 : 1;
+      const auto error = static_cast<double>(std::max(v.w - 1, Real(0)));
+      part.sum += error;
+      part.max = std::max(part.max, error);
+    }
+    parts[static_cast<std::size_t>(first / kChunk)] = part;
   });
-  if (broken > 0) {
+  Part total;
+  for (const Part& part : parts) {
+    total.sum += part.sum;
+    total.max = std::max(total.max, part.max);
+    total.broken += part.broken;
+  }
+  if (total.broken > 0) {
     throw SimulationFailed(
-        "step " + std::to_string(step_count_ + 1) + ": " +
-        std::to_string(static_cast<Index>(broken)) +
+        "step " + std::to_string(step_count_ + 1) + ": " + std::to_string(total.broken) +
         " particles have positions or velocities that are not finite; use a smaller time step");
   }
-  const double sum = parallel_sum(n, solver_.num_threads, [&](Index i) {
-    return static_cast<double>(std::max(relative_density_[i] - 1, Real(0)));
-  });
-  report.mean_density_error = sum / static_cast<double>(n);
-  report.max_density_error = std::max(0.0, static_cast<double>(relative_density_.maxCoeff()) - 1);
+  report.mean_density_error = total.sum / static_cast<double>(n);
+  report.max_density_error = total.max;
 }
 
-Points Simulation::positions() const { return scattered(state_.x, state_.ids); }
-Points Simulation::velocities() const { return scattered(state_.v, state_.ids); }
-Scalars Simulation::multipliers() const { return scattered(state_.lambda, state_.ids); }
+Points Simulation::positions() const { return scattered(points_of(state_.x), state_.ids); }
+Points Simulation::velocities() const { return scattered(points_of(state_.v), state_.ids); }
+Scalars Simulation::multipliers() const { return scattered(scalars_of(state_.x), state_.ids); }
 Ids Simulation::ids() const { return consecutive(0, size()); }
 
 Scalars Simulation::densities() const {
   // Found anew, since particles may have been added after the last step.
-  const Points x = positions();
   const int threads = solver_.num_threads;
   CellGrid grid;
-  grid.build(x, disc_.h, threads);
-  const Points x_sorted = gathered(x, grid.order());
+  grid.build(state_.x, disc_.h, threads);
+  Records x = state_.x, sorted;
+  sort(x, grid.order(), threads, sorted);
   Neighborhood near;
-  near.fluid.build(grid, x_sorted, disc_.h, threads);
-  near.boundary.build(disc_.walls, x_sorted, threads);
-  Scalars sorted;
-  relative_densities(near, disc_, x_sorted, threads, sorted);
-  return disc_.fluid.rest_density * scattered(sorted, grid.order());
+  near.build(grid, x, disc_, threads);
+  relative_densities(near, disc_, x, threads, sorted);
+  const Scalars in_state_order = scattered(scalars_of(sorted), grid.order());
+  return disc_.fluid.rest_density * scattered(in_state_order, state_.ids);
+}
+
+std::size_t Simulation::bytes() const {
+  const auto n = static_cast<std::size_t>(size());
+  const std::size_t records = 6 * n * sizeof(Record);
+  return records + 2 * n * sizeof(std::uint32_t) + grid_.bytes() + near_.fluid.bytes() +
+         near_.boundary.bytes();
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace pbf {
 
@@ -32,7 +33,7 @@ class Simulation {
   /// it throws ends the frame there.
   StepReport advance(Real seconds, const std::function<void()>& between_steps = {});
 
-  [[nodiscard]] Index size() const { return state_.x.cols(); }
+  [[nodiscard]] Index size() const { return state_.x.size(); }
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] std::int64_t step_count() const { return step_count_; }
   [[nodiscard]] const FluidParams& fluid() const { return disc_.fluid; }
@@ -45,6 +46,8 @@ class Simulation {
   [[nodiscard]] Scalars multipliers()
       const;  ///< λ_i of the last iteration [m²], zero before the first step
   [[nodiscard]] Ids ids() const;
+  /// Memory held, neighbor lists included [bytes].
+  [[nodiscard]] std::size_t bytes() const;
   /// Of time, steps, ids, positions and velocities: equal for equal bits.
   [[nodiscard]] std::uint64_t state_hash() const;
 
@@ -59,19 +62,19 @@ class Simulation {
   double time_ = 0;
   std::int64_t step_count_ = 0;
 
-  /// Sorted by cell; ids[k] is the row that particle k has outside.
+  /// Sorted by cell.
   struct State {
-    Points x, v;
-    Ids ids;
-    Scalars lambda;
+    Records x;  // (x, λ)
+    Records v;
+    std::vector<std::uint32_t> ids;  // the row that a particle has outside
   };
-  State state_, sorted_;
+  State state_;
 
-  // Of the step under way; swapped with the state when it has succeeded.
-  Points x_star_, u_, v_new_;
-  Scalars lambda_new_;
-  Points dp_, omega_;
-  Scalars relative_density_;
+  // Of the step under way; x_star_ and v_new_ are swapped with the state when it has succeeded.
+  Records x_star_, v_new_;
+  Records u_;         // x* − x; once velocities are known, scratch
+  Records x_lambda_;  // (x*, λ) in the iterations, scratch before and after
+  std::vector<std::uint32_t> sorted_ids_;
   CellGrid grid_;
   Neighborhood near_;
 };

@@ -13,7 +13,6 @@ enum class Stage {
   boundary,
   multipliers,
   corrections,
-  collision,
   velocity,
   vorticity,
   xsph,
@@ -21,8 +20,8 @@ enum class Stage {
   count
 };
 inline constexpr std::array<const char*, static_cast<std::size_t>(Stage::count)> kStageNames{
-    "predict",   "neighbors", "boundary",  "multipliers", "corrections",
-    "collision", "velocity",  "vorticity", "xsph",        "density"};
+    "predict",  "neighbors", "boundary", "multipliers", "corrections",
+    "velocity", "vorticity", "xsph",     "density"};
 
 /// What a time step did. Density errors are compression, max(C, 0), at the positions the step ended
 /// with: at a free surface the density is lower by nature and counts as no error.

@@ -10,20 +10,22 @@ namespace pbf {
 ///   v_i ← v_i + dt · strength · (N × ω_i)            strength in m/s                   [m/s]
 /// N = 0 where ‖η‖ h ≤ 1e-4 ‖ω_i‖: a direction out of rounding errors would push at random.
 
+/// ω, and (x, ‖ω‖) for confine_vorticity to gather.
 void compute_vorticity(const Neighborhood& near,
                        const Discretization& disc,
-                       const PointsView& x,
-                       const PointsView& v,
+                       const Records& x,
+                       const Records& v,
                        int threads,
-                       Points& omega);
+                       Records& omega,
+                       Records& x_strength);
 
 void confine_vorticity(const Neighborhood& near,
                        const Discretization& disc,
-                       const PointsView& x,
-                       const PointsView& omega,
+                       const Records& x_strength,
+                       const Records& omega,
                        Real strength,
                        Real dt,
                        int threads,
-                       Points& v);
+                       Records& v);
 
 }  // namespace pbf

@@ -18,7 +18,7 @@ Calibration calibrate(KernelChoice choice, double spacing, double h) {
       for (int b = -reach; b <= reach; ++b) {
         for (int c = -reach; c <= reach; ++c) {
           const double r2 = spacing * spacing * (a * a + b * b + c * c);
-          const double s = r2 > 0 ? kernel.grad_factor(r2) : 0;
+          const double s = r2 > 0 ? kernel.slope(r2) : 0;
           sum_W += kernel.W(r2);
           sum_grad2 += s * s * r2;
         }

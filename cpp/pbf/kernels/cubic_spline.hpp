@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cmath>
+#include "pbf/kernels/select.hpp"
+
 #include <numbers>
 
 namespace pbf {
@@ -8,30 +9,35 @@ namespace pbf {
 /// Cubic spline [Mon92] with support h, one kernel for densities and gradients.
 ///   W(r)  = 8/(π h³) { 6(q³ − q²) + 1 for q ≤ ½;  2(1 − q)³ for q ≤ 1 }       [1/m³]
 ///   dW/dr = 48/(π h⁴) { q(3q − 2);  −(1 − q)² }                               [1/m⁴]
-/// with q = ‖r‖/h, zero beyond.
+/// with q = ‖r‖/h, zero beyond. Both may be given a factor, such as a volume.
 template <class T>
 struct CubicSpline {
-  T h, inverse_h, W_scale, grad_scale;
+  T h;
 
-  explicit CubicSpline(T support_radius)
-      : h(support_radius),
-        inverse_h(T(1) / h),
-        W_scale(static_cast<T>(8.0 / (std::numbers::pi * std::pow(double(h), 3)))),
-        grad_scale(static_cast<T>(48.0 / (std::numbers::pi * std::pow(double(h), 5)))) {}
+  explicit CubicSpline(T support_radius, T factor = 1) : h(support_radius) {
+    const double radius = static_cast<double>(h);
+    const double W0 = static_cast<double>(factor) * 8 / (std::numbers::pi * std::pow(radius, 3));
+    per_h_ = static_cast<T>(1 / radius);
+    W0_ = static_cast<T>(W0);
+    slope0_ = static_cast<T>(6 * W0 / (radius * radius));
+  }
 
-  T W(T r2) const {
-    const T q = std::sqrt(r2) * inverse_h;
-    const T d = T(1) - q;
-    if (d <= T(0)) return T(0);
-    return W_scale * (q <= T(0.5) ? T(6) * q * q * (q - T(1)) + T(1) : T(2) * d * d * d);
+  template <class A>
+  [[gnu::always_inline]] A W(A r2) const {
+    const A q = sqrt(r2) * A(per_h_);
+    const A d = max(A(1) - q, A(0));
+    return A(W0_) * select(q <= A(0.5F), A(6) * q * q * (q - A(1)) + A(1), A(2) * d * d * d);
   }
-  /// s with ∇W = s · r                                                                    [1/m⁵]
-  T grad_factor(T r2) const {
-    const T q = std::sqrt(r2) * inverse_h;
-    const T d = T(1) - q;
-    if (d <= T(0)) return T(0);
-    return grad_scale * (q <= T(0.5) ? T(3) * q - T(2) : -(d * d) / q);
+  /// The s ≥ 0 with ∇W = −s · r                                                          [1/m⁵]
+  template <class A>
+  [[gnu::always_inline]] A slope(A r2) const {
+    const A q = sqrt(r2) * A(per_h_);
+    const A d = max(A(1) - q, A(0));
+    return A(slope0_) * select(q <= A(0.5F), A(2) - A(3) * q, d * d / max(q, A(0.5F)));
   }
+
+ private:
+  T per_h_, W0_, slope0_;
 };
 
 }  // namespace pbf

@@ -16,11 +16,16 @@ struct Choices<KernelChoice> {
   static constexpr std::array names{"poly6_spiky", "cubic_spline"};
 };
 
-/// Calls f with the chosen kernel of support radius h, so that loops are compiled for each kernel.
+/// Calls f with the chosen kernel of support radius h, times a factor, so that loops are compiled
+/// for each kernel.
+template <class T = Real, class F>
+decltype(auto) with_kernel(KernelChoice choice, T h, T factor, F&& f) {
+  if (choice == KernelChoice::cubic_spline) return f(CubicSpline<T>(h, factor));
+  return f(Poly6Spiky<T>(h, factor));
+}
 template <class T = Real, class F>
 decltype(auto) with_kernel(KernelChoice choice, T h, F&& f) {
-  if (choice == KernelChoice::cubic_spline) return f(CubicSpline<T>(h));
-  return f(Poly6Spiky<T>(h));
+  return with_kernel(choice, h, T(1), std::forward<F>(f));
 }
 
 }  // namespace pbf

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cmath>
+#include "pbf/kernels/select.hpp"
+
 #include <numbers>
 
 namespace pbf {
@@ -11,27 +12,41 @@ namespace pbf {
 /// with q = ‖r‖/h ≤ 1, both zero beyond. The gradient has no direction at r = 0 and is the zero
 /// vector there. ∇W is not the derivative of this W: spiky keeps close particles apart where
 /// poly6's own gradient vanishes.
+///
+/// Both may be given a factor, such as a volume. It and the constants before the powers stand
+/// inside the powers, where they cost nothing: 315/(64 π h³) (1 − q²)³ = (a − a q²)³.
 template <class T>
 struct Poly6Spiky {
-  T h, inverse_h, W_scale, grad_scale;
+  T h;
 
-  explicit Poly6Spiky(T support_radius)
-      : h(support_radius),
-        inverse_h(T(1) / h),
-        W_scale(static_cast<T>(315.0 / (64.0 * std::numbers::pi * std::pow(double(h), 3)))),
-        grad_scale(static_cast<T>(-45.0 / (std::numbers::pi * std::pow(double(h), 4)))) {}
+  explicit Poly6Spiky(T support_radius, T factor = 1) : h(support_radius) {
+    const double radius = static_cast<double>(h);
+    const double a =
+        std::cbrt(static_cast<double>(factor) * 315 / (64 * std::numbers::pi)) / radius;
+    const double b =
+        std::sqrt(static_cast<double>(factor) * 45 / std::numbers::pi) / (radius * radius);
+    a_ = static_cast<T>(a);
+    a_per_h2_ = static_cast<T>(a / (radius * radius));
+    b_ = static_cast<T>(b);
+    b_per_h_ = static_cast<T>(b / radius);
+  }
 
   /// W as a function of the squared distance: callers have it, and no square root is needed.
-  T W(T r2) const {
-    const T d = T(1) - r2 * (inverse_h * inverse_h);
-    return d > T(0) ? W_scale * (d * d * d) : T(0);
+  template <class A>
+  [[gnu::always_inline]] A W(A r2) const {
+    const A d = max(A(a_) - r2 * A(a_per_h2_), A(0));
+    return d * d * d;
   }
-  /// s with ∇W = s · r                                                                    [1/m⁵]
-  T grad_factor(T r2) const {
-    const T r = std::sqrt(r2);
-    const T d = T(1) - r * inverse_h;
-    return d > T(0) && r > T(0) ? grad_scale * (d * d) / r : T(0);
+  /// The s ≥ 0 with ∇W = −s · r                                                          [1/m⁵]
+  template <class A>
+  [[gnu::always_inline]] A slope(A r2) const {
+    const A r = sqrt(r2);
+    const A d = max(A(b_) - r * A(b_per_h_), A(0));
+    return d * d / select(r > A(0), r, A(1));
   }
+
+ private:
+  T a_, a_per_h2_, b_, b_per_h_;
 };
 
 }  // namespace pbf

@@ -2,6 +2,7 @@
 
 #include "pbf/core/error.hpp"
 #include "pbf/core/parallel.hpp"
+#include "pbf/core/types.hpp"
 
 #include <bit>
 #include <cmath>
@@ -12,34 +13,48 @@
 namespace pbf {
 namespace {
 
+/// Entries that a thread sorts at a time.
+constexpr Index kBlock = 1 << 14;
+
 struct Bounds {
   Eigen::Array3d lower = Eigen::Array3d::Constant(std::numeric_limits<double>::max());
   Eigen::Array3d upper = Eigen::Array3d::Constant(std::numeric_limits<double>::lowest());
 };
 
-Bounds bounds_of(const PointsView& x, double farthest) {
-  Bounds bounds;
-  for (Index i = 0; i < x.cols(); ++i) {
-    const Eigen::Array3d p = x.col(i).cast<double>().array();
-    if (!(p.abs() <= farthest).all()) {  // false for NaN as well
-      throw SimulationFailed(
-          "particle positions: (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " +
-          std::to_string(p[2]) + ") m is not within " + std::to_string(farthest) +
-          " m (2^20 support radii) of the origin; use a smaller time step or a domain");
+Eigen::Array3d coordinates(const Record& x) { return {x.x, x.y, x.z}; }
+
+Bounds bounds_of(const Records& x, double farthest, int threads) {
+  std::vector<Bounds> parts(static_cast<std::size_t>((x.size() + kBlock - 1) / kBlock));
+  parallel_chunks(x.size(), threads, kBlock, [&](Index first, Index last) {
+    Bounds bounds;
+    for (Index i = first; i < last; ++i) {
+      const Eigen::Array3d p = coordinates(x[i]);
+      if (!(p.abs() <= farthest).all()) {  // false for NaN as well
+        throw SimulationFailed(
+            "particle positions: (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " +
+            std::to_string(p[2]) + ") m is not within " + std::to_string(farthest) +
+            " m (2^20 support radii) of the origin; use a smaller time step or a domain");
+      }
+      bounds.lower = bounds.lower.min(p);
+      bounds.upper = bounds.upper.max(p);
     }
-    bounds.lower = bounds.lower.min(p);
-    bounds.upper = bounds.upper.max(p);
+    parts[static_cast<std::size_t>(first / kBlock)] = bounds;
+  });
+  Bounds bounds;
+  for (const Bounds& part : parts) {
+    bounds.lower = bounds.lower.min(part.lower);
+    bounds.upper = bounds.upper.max(part.upper);
   }
   return bounds;
 }
 
 }  // namespace
 
-void CellGrid::build(const PointsView& x, Real h, int threads) {
-  const Index n = x.cols();
-  if (n >= std::numeric_limits<std::uint32_t>::max()) {
-    throw InvalidParameter("particles: " + std::to_string(n) +
-                           " are more than the 4294967294 that a grid can hold");
+void CellGrid::build(const Records& x, Real h, int threads) {
+  const Index n = x.size();
+  if (n > kMostParticles) {
+    throw InvalidParameter("particles: " + std::to_string(n) + " are more than the " +
+                           std::to_string(kMostParticles) + " that a grid can hold");
   }
   entries_.resize(static_cast<std::size_t>(n));
   order_.resize(entries_.size());
@@ -48,7 +63,7 @@ void CellGrid::build(const PointsView& x, Real h, int threads) {
   if (n == 0) return;
 
   const double cell = static_cast<double>(h) * (1 + 1e-6);
-  const Bounds bounds = bounds_of(x, kFarthestCell * static_cast<double>(h));
+  const Bounds bounds = bounds_of(x, kFarthestCell * static_cast<double>(h), threads);
   // One empty cell around the bounds: a row that leaves the grid then meets keys that no particle
   // has.
   const auto cells = [&](int axis) {
@@ -57,39 +72,78 @@ void CellGrid::build(const PointsView& x, Real h, int threads) {
   stride_y_ = cells(0);
   stride_z_ = stride_y_ * cells(1);
   parallel_for(n, threads, [&](Index i) {
-    const Eigen::Array3d c = (x.col(i).cast<double>().array() - bounds.lower) / cell;
+    const Eigen::Array3d c = (coordinates(x[i]) - bounds.lower) / cell;
     const auto key = (static_cast<std::uint64_t>(c[0]) + 1) +
                      (static_cast<std::uint64_t>(c[1]) + 1) * stride_y_ +
                      (static_cast<std::uint64_t>(c[2]) + 1) * stride_z_;
     entries_[static_cast<std::size_t>(i)] = {key, static_cast<std::uint32_t>(i)};
   });
-  sort_entries(stride_z_ * cells(2));
-
-  for (std::size_t k = 0; k < entries_.size(); ++k) {
-    order_[k] = entries_[k].particle;
-    if (k == 0 || entries_[k].key != keys_.back()) {
-      keys_.push_back(entries_[k].key);
-      starts_.push_back(static_cast<std::uint32_t>(k));
-    }
-  }
-  starts_.push_back(static_cast<std::uint32_t>(n));
+  sort_entries(stride_z_ * cells(2), threads);
+  find_cells(threads);
 }
 
 /// Radix sort from the lowest digit, which is stable: the order is a function of positions and
-/// input order alone.
-void CellGrid::sort_entries(std::uint64_t largest_key) {
+/// input order alone. Each block counts its digits, and from the counts of all follows where each
+/// block puts each digit.
+void CellGrid::sort_entries(std::uint64_t largest_key, int threads) {
   constexpr int kDigitBits = 11;
   constexpr std::uint64_t kDigits = 1 << kDigitBits;
+  using Places = std::array<std::uint32_t, kDigits>;
+  const auto n = static_cast<Index>(entries_.size());
+  std::vector<Places> places(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   scratch_.resize(entries_.size());
   const auto key_bits = static_cast<int>(std::bit_width(largest_key));
   for (int shift = 0; shift < key_bits; shift += kDigitBits) {
-    std::array<std::uint32_t, kDigits> place{};
-    for (const Entry& e : entries_) ++place[(e.key >> shift) % kDigits];
+    const auto digit = [&](Index k) {
+      return (entries_[static_cast<std::size_t>(k)].key >> shift) % kDigits;
+    };
+    parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
+      Places& count = places[static_cast<std::size_t>(first / kBlock)];
+      count.fill(0);
+      for (Index k = first; k < last; ++k) ++count[digit(k)];
+    });
     std::uint32_t sum = 0;
-    for (std::uint32_t& p : place) sum += std::exchange(p, sum);
-    for (const Entry& e : entries_) scratch_[place[(e.key >> shift) % kDigits]++] = e;
+    for (std::size_t d = 0; d < kDigits; ++d) {
+      for (Places& place : places) sum += std::exchange(place[d], sum);
+    }
+    parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
+      Places& place = places[static_cast<std::size_t>(first / kBlock)];
+      for (Index k = first; k < last; ++k) {
+        scratch_[place[digit(k)]++] = entries_[static_cast<std::size_t>(k)];
+      }
+    });
     entries_.swap(scratch_);
   }
+}
+
+/// The cells that hold particles, from the sorted entries.
+void CellGrid::find_cells(int threads) {
+  const auto n = static_cast<Index>(entries_.size());
+  const auto starts_cell = [&](Index k) {
+    const auto e = static_cast<std::size_t>(k);
+    return k == 0 || entries_[e].key != entries_[e - 1].key;
+  };
+  std::vector<std::size_t> first_cell(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
+  parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
+    std::size_t count = 0;
+    for (Index k = first; k < last; ++k) count += starts_cell(k) ? 1 : 0;
+    first_cell[static_cast<std::size_t>(first / kBlock)] = count;
+  });
+  std::size_t cells = 0;
+  for (std::size_t& first : first_cell) cells += std::exchange(first, cells);
+  keys_.resize(cells);
+  starts_.resize(cells + 1);
+  starts_[cells] = static_cast<std::uint32_t>(n);
+  parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
+    std::size_t cell = first_cell[static_cast<std::size_t>(first / kBlock)];
+    for (Index k = first; k < last; ++k) {
+      const auto e = static_cast<std::size_t>(k);
+      order_[e] = entries_[e].particle;
+      if (!starts_cell(k)) continue;
+      keys_[cell] = entries_[e].key;
+      starts_[cell++] = static_cast<std::uint32_t>(k);
+    }
+  });
 }
 
 }  // namespace pbf

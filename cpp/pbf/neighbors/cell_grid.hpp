@@ -1,6 +1,7 @@
 #pragma once
 
-#include "pbf/core/types.hpp"
+#include "pbf/core/records.hpp"
+#include "pbf/neighbors/scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,9 @@ namespace pbf {
 /// apart there.
 inline constexpr double kFarthestCell = 1 << 20;
 
+/// Most particles: neighbor lists count the floats of their records in 32 bits.
+inline constexpr Index kMostParticles = (Index{1} << 30) - 2 * kMostLanes;
+
 /// Sorts particles into cubic cells and keeps only the cells that hold some, in the order of their
 /// keys. Memory and time follow the number of particles, however far they are spread.
 class CellGrid {
@@ -20,17 +24,20 @@ class CellGrid {
   /// Finds the order of x by cell; equal cells keep the order they came in. Cells are a hair larger
   /// than h, so that rounding cannot put two particles closer than h two cells apart. Throws
   /// SimulationFailed if a coordinate is not finite or beyond kFarthestCell cells.
-  void build(const PointsView& x, Real h, int threads);
+  void build(const Records& x, Real h, int threads);
 
   /// Place in cell order → index in the x that was given.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
+  [[nodiscard]] std::size_t bytes() const {
+    return (entries_.capacity() + scratch_.capacity()) * sizeof(Entry) +
+           (order_.capacity() + starts_.capacity()) * sizeof(std::uint32_t) +
+           keys_.capacity() * sizeof(std::uint64_t);
+  }
+
   /// Walks the cells that hold the particles [first, last) of the sorted order, calling
   /// f(begin, end, ranges): the cell's particles, clipped to [first, last), and the nine ranges of
   /// sorted particles (three cells in x each) that hold all their neighbors.
-  struct Span {
-    std::uint32_t begin, end;
-  };
   using Ranges = std::array<Span, 9>;
   template <class F>
   void for_each_cell(Index first, Index last, F&& f) const;
@@ -40,7 +47,8 @@ class CellGrid {
     std::uint64_t key;
     std::uint32_t particle;
   };
-  void sort_entries(std::uint64_t largest_key);
+  void sort_entries(std::uint64_t largest_key, int threads);
+  void find_cells(int threads);
 
   std::vector<Entry> entries_, scratch_;
   std::vector<std::uint32_t> order_;
@@ -78,7 +86,8 @@ void CellGrid::for_each_cell(Index first, Index last, F&& f) const {
       while (high[k] < keys_.size() && keys_[high[k]] <= row + 1) ++high[k];
       ranges[k] = {starts_[low[k]], starts_[high[k]]};
     }
-    f(std::max<Index>(starts_[cell], first), std::min<Index>(starts_[cell + 1], last), ranges);
+    f(std::max(starts_[cell], static_cast<std::uint32_t>(first)),
+      std::min(starts_[cell + 1], static_cast<std::uint32_t>(last)), ranges);
   }
 }
 

@@ -2,45 +2,112 @@
 
 #include "pbf/core/error.hpp"
 #include "pbf/core/parallel.hpp"
+#include "pbf/neighbors/scan.hpp"
 
 #include <string>
 
 namespace pbf {
+namespace {
 
-void NeighborList::build(const CellGrid& grid, const PointsView& x, Real h, int threads) {
-  rows_.resize(x.cols());
-  const Real h2 = h * h;
-  parallel_chunks(x.cols(), threads, kChunk, [&](Index first, Index last) {
-    auto& list = rows_.chunk(first);
-    std::size_t size = 0;
-    grid.for_each_cell(first, last, [&](Index begin, Index end, const CellGrid::Ranges& ranges) {
-      std::size_t candidates = 0;
-      for (const auto& range : ranges) candidates += range.end - range.begin;
-      for (Index i = begin; i < end; ++i) {
-        // Room for every candidate, so that the loop writes without asking: a miss is overwritten
-        // by the next.
-        if (list.size() < size + candidates) list.resize(2 * (size + candidates));
-        const std::size_t row = size;
-        const Real xi = x(0, i), yi = x(1, i), zi = x(2, i);
-        for (const auto& range : ranges) {
-          for (std::uint32_t j = range.begin; j < range.end; ++j) {
-            const Real dx = xi - x(0, j), dy = yi - x(1, j), dz = zi - x(2, j);
-            list[size] = j;
-            size += static_cast<std::size_t>(dx * dx + dy * dy + dz * dz < h2 && j != i);
+/// Particles of a cell that are searched at a time: bounds the memory that a heap can take before
+/// it is found out.
+constexpr std::uint32_t kBatch = 16;
+
+/// What a thread needs to search a chunk.
+struct Scratch {
+  std::vector<Real> coordinates;
+  std::vector<std::uint32_t> entries;
+  std::vector<std::uint32_t> rows;
+  std::array<std::uint32_t, static_cast<std::size_t>(kChunk)> offsets, lengths;
+
+  Candidates candidates(std::size_t count) {
+    const std::size_t room = count + static_cast<std::size_t>(kMostLanes);
+    if (entries.size() < room) {
+      entries.resize(2 * room);
+      coordinates.resize(3 * entries.size());
+    }
+    Real* x = coordinates.data();
+    return {x, x + entries.size(), x + 2 * entries.size(), entries.data(), 0};
+  }
+};
+
+[[noreturn]] void fail_piled_up(const Record& x, std::uint32_t neighbors, Real h) {
+  throw SimulationFailed("neighbors: a particle at (" + std::to_string(x.x) + ", " +
+                         std::to_string(x.y) + ", " + std::to_string(x.z) + ") m has " +
+                         std::to_string(neighbors) + " others within the support radius (" +
+                         std::to_string(h) + " m), more than " + std::to_string(kMostNeighbors) +
+                         "; particles are piled up: check the spacing against the positions");
+}
+
+}  // namespace
+
+void NeighborList::build(const CellGrid& grid, const Records& x, Real h, int threads) {
+  isa_ = chosen_isa();
+  rows_.resize(x.size(), scan(isa_).lanes);
+  parallel_chunks(x.size(), threads, kChunk,
+                  [&](Index first, Index last) { build_chunk(grid, x, h, first, last); });
+}
+
+void NeighborList::build_chunk(
+    const CellGrid& grid, const Records& x, Real h, Index first, Index last) {
+  const Scan& loops = scan(isa_);
+  const auto filler = 4 * static_cast<std::uint32_t>(Records::filler(x.size()));
+  thread_local Scratch scratch;
+  std::size_t size = 0;  // of scratch.rows in use
+  grid.for_each_cell(
+      first, last, [&](std::uint32_t begin, std::uint32_t end, const CellGrid::Ranges& ranges) {
+        std::size_t count = 0;
+        for (const Span& range : ranges) count += range.end - range.begin;
+        Candidates candidates = scratch.candidates(count);
+        candidates.count = loops.collect(x.data(), ranges.data(), candidates);
+        // The cell's own row is the fifth.
+        std::uint32_t self = begin - ranges[4].begin;
+        for (int k = 0; k < 4; ++k) self += ranges[k].end - ranges[k].begin;
+
+        for (std::uint32_t b = begin; b < end; b += kBatch, self += kBatch) {
+          const std::uint32_t e = std::min(end, b + kBatch);
+          const std::size_t room = size + (e - b) * (count + kMostLanes + 8);
+          if (scratch.rows.size() < room) scratch.rows.resize(2 * room);
+          std::uint32_t* const out = scratch.rows.data() + size;
+          std::uint32_t* const lengths = scratch.lengths.data() + (b - first);
+          const std::uint32_t* const done =
+              loops.rows(x.data(), b, e, candidates, self, h * h, filler, out, lengths);
+          std::size_t offset = size;
+          for (std::uint32_t i = b; i < e; ++i) {
+            const std::uint32_t length = lengths[i - b];
+            if (length > kMostNeighbors) fail_piled_up(x[i], length, h);
+            scratch.offsets[i - first] = static_cast<std::uint32_t>(offset);
+            offset += (length + 3) / 4 * 4;
           }
+          size += static_cast<std::size_t>(done - out);
         }
-        if (size - row > kMostNeighbors) {
-          throw SimulationFailed(
-              "neighbors: a particle at (" + std::to_string(xi) + ", " + std::to_string(yi) + ", " +
-              std::to_string(zi) + ") m has " + std::to_string(size - row) +
-              " others within the support radius (" + std::to_string(h) + " m), more than " +
-              std::to_string(kMostNeighbors) +
-              "; particles are piled up: check the spacing against the positions");
-        }
-        rows_.set_row(i, row, size);
-      }
-    });
-  });
+      });
+
+  // Rows side by side, slice by slice.
+  auto& chunk = rows_.chunk(first);
+  const auto lanes = static_cast<Index>(loops.lanes);
+  std::uint32_t slots = 0;
+  const auto longest = [&](Index slice) {
+    const auto* lengths = scratch.lengths.data() + slice;
+    return *std::max_element(lengths, lengths + std::min(lanes, last - first - slice));
+  };
+  for (Index slice = 0; slice < last - first; slice += lanes) {
+    slots += longest(slice);
+    chunk.ends[static_cast<std::size_t>(slice / lanes)] = slots;
+  }
+  std::uint32_t* out = chunk.reserve(static_cast<std::size_t>((slots + 3) * lanes));
+  for (Index slice = 0; slice < last - first; slice += lanes) {
+    std::array<const std::uint32_t*, static_cast<std::size_t>(kMostLanes)> rows{};
+    std::array<std::uint32_t, static_cast<std::size_t>(kMostLanes)> lengths{};
+    for (Index lane = 0; lane < std::min(lanes, last - first - slice); ++lane) {
+      const auto i = static_cast<std::size_t>(slice + lane);
+      rows[static_cast<std::size_t>(lane)] = scratch.rows.data() + scratch.offsets[i];
+      lengths[static_cast<std::size_t>(lane)] = scratch.lengths[i];
+    }
+    const std::uint32_t length = longest(slice);
+    loops.pack(rows.data(), lengths.data(), length, filler, out);
+    out += static_cast<Index>(length) * lanes;
+  }
 }
 
 }  // namespace pbf

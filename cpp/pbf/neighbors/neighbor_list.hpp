@@ -1,41 +1,12 @@
 #pragma once
 
-#include "pbf/core/types.hpp"
+#include "pbf/core/isa.hpp"
 #include "pbf/neighbors/cell_grid.hpp"
+#include "pbf/neighbors/sliced_rows.hpp"
 
-#include <cstdint>
-#include <span>
-#include <vector>
+#include <iterator>
 
 namespace pbf {
-
-/// Rows of different lengths, one per particle, written by several threads at once: every chunk of
-/// kChunk particles has a buffer of its own, which keeps its memory from step to step.
-template <class T>
-class Rows {
- public:
-  void resize(Index n) {
-    begin_.resize(static_cast<std::size_t>(n));
-    end_.resize(static_cast<std::size_t>(n));
-    chunks_.resize(static_cast<std::size_t>((n + kChunk - 1) / kChunk));
-  }
-  [[nodiscard]] Index size() const { return static_cast<Index>(begin_.size()); }
-  [[nodiscard]] std::span<const T> operator[](Index i) const {
-    const T* data = chunks_[static_cast<std::size_t>(i / kChunk)].data();
-    return {data + begin_[static_cast<std::size_t>(i)], data + end_[static_cast<std::size_t>(i)]};
-  }
-  /// The buffer of the chunk that starts at particle `first`; rows are appended to it in order of
-  /// particles.
-  std::vector<T>& chunk(Index first) { return chunks_[static_cast<std::size_t>(first / kChunk)]; }
-  void set_row(Index i, std::size_t begin, std::size_t end) {
-    begin_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(begin);
-    end_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(end);
-  }
-
- private:
-  std::vector<std::uint32_t> begin_, end_;
-  std::vector<std::vector<T>> chunks_;
-};
 
 /// More neighbors than any fluid has: particles piled up in one place, which would cost memory
 /// without end.
@@ -47,13 +18,76 @@ class NeighborList {
   /// @param grid  built from the same positions and h
   /// @param x     those positions in the grid's order
   /// Throws SimulationFailed if a particle has more than kMostNeighbors.
-  void build(const CellGrid& grid, const PointsView& x, Real h, int threads);
+  void build(const CellGrid& grid, const Records& x, Real h, int threads);
 
-  [[nodiscard]] std::span<const std::uint32_t> operator[](Index i) const { return rows_[i]; }
   [[nodiscard]] Index size() const { return rows_.size(); }
+  /// What it was built with, and is laid out for.
+  [[nodiscard]] Isa isa() const { return isa_; }
+  [[nodiscard]] int lanes() const { return rows_.lanes(); }
+  [[nodiscard]] std::size_t bytes() const { return rows_.bytes(); }
+  /// An entry is four times the place of a neighbor: the offset of its record in floats.
+  [[nodiscard]] SliceView<std::uint32_t> view(Index first) const { return rows_.view(first); }
+
+  /// The places of i's neighbors: `for (const std::uint32_t j : list[i])`.
+  class Row;
+  [[nodiscard]] Row operator[](Index i) const;
 
  private:
-  Rows<std::uint32_t> rows_;
+  void build_chunk(const CellGrid& grid, const Records& x, Real h, Index first, Index last);
+
+  Isa isa_{};
+  SlicedRows<std::uint32_t> rows_;
 };
+
+class NeighborList::Row {
+ public:
+  class iterator {
+   public:
+    using value_type = std::uint32_t;
+    using difference_type = std::ptrdiff_t;
+    iterator() = default;
+    iterator(const std::uint32_t* entry, const Row* row) : entry_(entry), row_(row) {}
+    std::uint32_t operator*() const { return *entry_ / 4; }
+    iterator& operator++() {
+      entry_ += row_->lanes_;
+      return *this;
+    }
+    iterator operator++(int) {
+      const iterator before = *this;
+      ++*this;
+      return before;
+    }
+    /// Fillers stand at the end.
+    bool operator==(std::default_sentinel_t) const {
+      return entry_ == row_->end_ || *entry_ == row_->filler_;
+    }
+
+   private:
+    const std::uint32_t* entry_ = nullptr;
+    const Row* row_ = nullptr;
+  };
+  Row(const std::uint32_t* begin, const std::uint32_t* end, int lanes, std::uint32_t filler)
+      : begin_(begin), end_(end), lanes_(lanes), filler_(filler) {}
+  [[nodiscard]] iterator begin() const { return {begin_, this}; }
+  [[nodiscard]] static std::default_sentinel_t end() { return {}; }
+  [[nodiscard]] Index size() const {
+    Index count = 0;
+    for (auto entry = begin(); entry != end(); ++entry) ++count;
+    return count;
+  }
+
+ private:
+  const std::uint32_t *begin_, *end_;
+  int lanes_;
+  std::uint32_t filler_;
+};
+
+inline NeighborList::Row NeighborList::operator[](Index i) const {
+  const auto slots = rows_.slots(i);
+  const auto lanes = static_cast<std::uint32_t>(rows_.lanes());
+  const std::uint32_t* lane = rows_.chunk(i).entries.data() + i % rows_.lanes();
+  return {lane + slots.begin * lanes, lane + slots.end * lanes, rows_.lanes(),
+          4 * static_cast<std::uint32_t>(Records::filler(size()))};
+}
 
 }  // namespace pbf

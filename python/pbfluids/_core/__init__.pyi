@@ -22,6 +22,7 @@ __all__: list[str] = [
     "ball",
     "block",
     "build_info",
+    "instruction_sets",
     "stages",
     "usable_threads",
 ]
@@ -760,6 +761,11 @@ def block(
 def build_info() -> dict[str, str]:
     """
     Compiler, instruction set and libraries of this build.
+    """
+
+def instruction_sets() -> list[str]:
+    """
+    Instruction sets that the solver is compiled for and this processor has, plainest first.
     """
 
 def usable_threads(requested: typing.SupportsInt | typing.SupportsIndex) -> int:

@@ -1,4 +1,5 @@
 #include "pbf/fluid/density_constraint.hpp"
+#include "pbf/neighbors/reorder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,17 +10,32 @@ namespace {
 
 struct Cloud {
   Discretization disc;
-  CellGrid grid;
-  Points x;
+  Records x;
   Neighborhood near;
 
   Cloud(const FluidParams& fluid, const Points& positions, const std::optional<Box>& box = {})
-      : disc(fluid, box), x(3, positions.cols()) {
-    grid.build(positions, disc.h, 2);
-    for (Index k = 0; k < x.cols(); ++k)
-      x.col(k) = positions.col(grid.order()[static_cast<std::size_t>(k)]);
-    near.fluid.build(grid, x, disc.h, 2);
-    near.boundary.build(disc.walls, x, 2);
+      : disc(fluid, box) {
+    CellGrid grid;
+    grid.build(records_of(positions), disc.h, 2);
+    x = records_of(gathered(positions, grid.order()));
+    near.build(grid, x, disc, 2);
+  }
+
+  [[nodiscard]] Scalars densities() const {
+    Records density;
+    relative_densities(near, disc, x, 2, density);
+    return scalars_of(density);
+  }
+  [[nodiscard]] Records multipliers(const SolverParams& solver) const {
+    Records x_lambda;
+    solve_multipliers(near, disc, solver, x, x_lambda);
+    return x_lambda;
+  }
+  /// The first iteration's Δp.
+  [[nodiscard]] Points corrections(const SolverParams& solver) const {
+    Records moved(x.size()), dp(x.size());
+    apply_corrections(near, disc, solver, multipliers(solver), x, moved, dp);
+    return points_of(dp);
   }
 };
 
@@ -36,9 +52,8 @@ TEST_CASE(
       const FluidParams fluid{.spacing = 0.05F, .support_radius = ratio * 0.05F, .kernel = kernel};
       const Box box{.lower = kOrigin, .upper = Vec3::Constant(0.5F)};
       Cloud cloud(fluid, block(box.lower, box.upper, 0.05F), box);
-      Scalars density, lambda;
-      solve_multipliers(cloud.near, cloud.disc, {}, cloud.x, density, lambda);
-      CHECK((density - 1).abs().maxCoeff() < 1e-4F);
+      const Scalars lambda = scalars_of(cloud.multipliers({}));
+      CHECK((cloud.densities() - 1).abs().maxCoeff() < 1e-4F);
       CHECK(lambda.abs().maxCoeff() * cloud.disc.ideal_denominator < 1e-4F);
     }
   }
@@ -49,10 +64,7 @@ TEST_CASE("density constraint: corrections of a free cloud add up to zero") {
   Cloud cloud(fluid, samples::jittered_block(kOrigin, Vec3::Constant(0.6F), 0.05F, 0.4F));
   for (const Real floor : {0.0F, -std::numeric_limits<Real>::infinity()}) {
     const SolverParams solver{.constraint_floor = floor, .tensile_strength = 0.1F};
-    Scalars density, lambda;
-    Points dp;
-    solve_multipliers(cloud.near, cloud.disc, solver, cloud.x, density, lambda);
-    compute_corrections(cloud.near, cloud.disc, solver, cloud.x, lambda, dp);
+    const Points dp = cloud.corrections(solver);
     const double total = dp.cast<double>().rowwise().sum().norm();
     const double size = dp.cast<double>().colwise().norm().sum();
     REQUIRE(size > 0);
@@ -65,20 +77,16 @@ TEST_CASE("density constraint: iterations take compression away") {
   const SolverParams solver{};
   Points x = samples::jittered_block(kOrigin, Vec3::Constant(0.5F), 0.05F, 0.1F) * 0.96F;
   Cloud cloud(fluid, x);
-  Scalars density, lambda;
-  const Points start = cloud.x;
-  Points dp, u = Points::Zero(3, start.cols());
-  solve_multipliers(cloud.near, cloud.disc, solver, cloud.x, density, lambda);
-  const Real before = (density - 1).max(0).mean();
+  const Records start = cloud.x;
+  Records u(start.size());
+  const Real before = (cloud.densities() - 1).max(0).mean();
   REQUIRE(before > 0.02F);
   for (int k = 0; k < 20; ++k) {
-    solve_multipliers(cloud.near, cloud.disc, solver, cloud.x, density, lambda);
-    compute_corrections(cloud.near, cloud.disc, solver, cloud.x, lambda, dp);
-    apply_corrections(cloud.disc, start, dp, 2, cloud.x, u);
+    apply_corrections(cloud.near, cloud.disc, solver, cloud.multipliers(solver), start, cloud.x, u);
   }
-  relative_densities(cloud.near, cloud.disc, cloud.x, 2, density);
-  CHECK((density - 1).max(0).mean() < 0.2F * before);
-  CHECK((u - (cloud.x - start)).cwiseAbs().maxCoeff() < 1e-6F);  // 20 roundings of 0.5 m
+  CHECK((cloud.densities() - 1).max(0).mean() < 0.2F * before);
+  const Points moved = points_of(cloud.x) - points_of(start);
+  CHECK((points_of(u) - moved).cwiseAbs().maxCoeff() < 1e-6F);  // 20 roundings of 0.5 m
 }
 
 TEST_CASE("density constraint: the result does not change with the unit of length") {
@@ -87,11 +95,7 @@ TEST_CASE("density constraint: the result does not change with the unit of lengt
     Cloud cloud(fluid,
                 samples::jittered_block(kOrigin, Vec3::Constant(8 * spacing), spacing, 0.3F));
     const SolverParams solver{.relaxation = 0.05F, .tensile_strength = 0.1F};
-    Scalars density, lambda;
-    Points dp;
-    solve_multipliers(cloud.near, cloud.disc, solver, cloud.x, density, lambda);
-    compute_corrections(cloud.near, cloud.disc, solver, cloud.x, lambda, dp);
-    return Points(dp / spacing);
+    return Points(cloud.corrections(solver) / spacing);
   };
   // Powers of two, so that float32 rounds alike and the comparison can be tight.
   CHECK((shares(0.0625F) - shares(4.0F)).cwiseAbs().maxCoeff() < 1e-4F);

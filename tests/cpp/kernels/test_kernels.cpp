@@ -37,7 +37,7 @@ TEST_CASE_TEMPLATE("kernels: W and its gradient are zero at the support radius a
   const Kernel kernel(0.1);
   for (const double r : {0.1, 0.1000001, 5.0}) {
     CHECK(kernel.W(r * r) == doctest::Approx(0.0));
-    CHECK(kernel.grad_factor(r * r) == doctest::Approx(0.0));
+    CHECK(kernel.slope(r * r) == doctest::Approx(0.0));
   }
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("cubic spline: the gradient is the derivative of W") {
   for (const double r : {0.01, 0.03, 0.049, 0.051, 0.08, 0.099}) {
     const double e = 1e-7;
     const double slope = (kernel.W((r + e) * (r + e)) - kernel.W((r - e) * (r - e))) / (2 * e);
-    CHECK(kernel.grad_factor(r * r) * r == doctest::Approx(slope).epsilon(1e-5));
+    CHECK(-kernel.slope(r * r) * r == doctest::Approx(slope).epsilon(1e-5));
   }
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("spiky: the gradient is the derivative of 15/(π h⁶) (h − r)³") {
   };
   for (const double r : {0.01, 0.05, 0.09}) {
     const double e = 1e-7;
-    CHECK(kernel.grad_factor(r * r) * r ==
+    CHECK(-kernel.slope(r * r) * r ==
           doctest::Approx((spiky(r + e) - spiky(r - e)) / (2 * e)).epsilon(1e-5));
   }
 }
@@ -67,7 +67,18 @@ TEST_CASE_TEMPLATE("kernels: the gradient is finite where two particles coincide
                    Kernel,
                    Poly6Spiky<float>,
                    CubicSpline<float>) {
-  CHECK(std::isfinite(Kernel(0.04F).grad_factor(0.0F) * 0.0F));
+  CHECK(std::isfinite(Kernel(0.04F).slope(0.0F) * 0.0F));
+}
+
+TEST_CASE_TEMPLATE("kernels: a factor multiplies W and its gradient",
+                   Kernel,
+                   Poly6Spiky<double>,
+                   CubicSpline<double>) {
+  const Kernel plain(0.1), scaled(0.1, 1e-6);
+  for (const double r : {0.0, 0.02, 0.07, 0.2}) {
+    CHECK(scaled.W(r * r) == doctest::Approx(1e-6 * plain.W(r * r)));
+    CHECK(scaled.slope(r * r) == doctest::Approx(1e-6 * plain.slope(r * r)));
+  }
 }
 
 TEST_CASE("calibration: the lattice sum of W times V is one, at any scale") {

@@ -1,5 +1,6 @@
 #include "pbf/core/error.hpp"
 #include "pbf/neighbors/neighbor_list.hpp"
+#include "pbf/neighbors/reorder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,12 +11,9 @@ namespace {
 
 std::set<std::pair<Index, Index>> pairs_by_grid(const Points& x, Real h, int threads = 2) {
   CellGrid grid;
-  grid.build(x, h, threads);
-  Points sorted(3, x.cols());
-  for (Index k = 0; k < x.cols(); ++k)
-    sorted.col(k) = x.col(grid.order()[static_cast<std::size_t>(k)]);
+  grid.build(records_of(x), h, threads);
   NeighborList list;
-  list.build(grid, sorted, h, threads);
+  list.build(grid, records_of(gathered(x, grid.order())), h, threads);
   std::set<std::pair<Index, Index>> pairs;
   for (Index k = 0; k < list.size(); ++k) {
     for (const std::uint32_t j : list[k]) {
@@ -62,10 +60,10 @@ TEST_CASE("neighbor list: finds the pairs that brute force finds") {
 }
 
 TEST_CASE("cell grid: the order is a permutation and does not depend on threads") {
-  const Points x = random_points(5'000, 1.0F);
+  const Points x = random_points(50'000, 1.0F);
   CellGrid one, four;
-  one.build(x, 0.1F, 1);
-  four.build(x, 0.1F, 4);
+  one.build(records_of(x), 0.1F, 1);
+  four.build(records_of(x), 0.1F, 4);
   CHECK(one.order() == four.order());
   std::vector<std::uint32_t> sorted = one.order();
   std::sort(sorted.begin(), sorted.end());
@@ -76,9 +74,9 @@ TEST_CASE("cell grid: positions that no grid can hold are refused") {
   Points x = Points::Zero(3, 2);
   CellGrid grid;
   x(1, 1) = std::numeric_limits<Real>::quiet_NaN();
-  CHECK_THROWS_AS(grid.build(x, 0.1F, 1), SimulationFailed);
+  CHECK_THROWS_AS(grid.build(records_of(x), 0.1F, 1), SimulationFailed);
   x(1, 1) = 1e30F;
-  CHECK_THROWS_AS(grid.build(x, 0.1F, 1), SimulationFailed);
+  CHECK_THROWS_AS(grid.build(records_of(x), 0.1F, 1), SimulationFailed);
 }
 
 TEST_CASE("neighbor list: a heap of particles is an error, not endless memory") {

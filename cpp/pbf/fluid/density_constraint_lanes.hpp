@@ -1,0 +1,126 @@
+#pragma once
+
+#include "pbf/fluid/slices.hpp"
+
+/// The sums of fluid/density_constraint.hpp over neighbors j and boundary particles q.
+namespace pbf::PBF_ISA_NAMESPACE {
+
+template <class Kernel>
+void multipliers(const Kernel& VW,
+                 const Stretch& at,
+                 Real epsilon,
+                 Real floor,
+                 const Record* x_star,
+                 Record* x_lambda) {
+  for_each_slice(at, [&](const Slice& slice) PBF_LAMBDA_INLINE {
+    const Vec3Lanes x_i = load_records(x_star + slice.first).xyz;
+    Lanes density = VW.W(Lanes(0));
+    Lanes sum_grad2 = 0;         // Σ_{j≠i} ‖∇_j C_i‖²
+    Vec3Lanes grad = {0, 0, 0};  // ∇_i C_i
+    slice.for_each_neighbor([&](const std::uint32_t* j) PBF_LAMBDA_INLINE {
+      const Vec3Lanes r = x_i - gather(x_star, j).xyz;
+      const Lanes r2 = dot(r, r);
+      const Lanes s = VW.slope(r2);
+      density += VW.W(r2);
+      grad -= s * r;
+      sum_grad2 += s * s * r2;
+    });
+    slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
+      const Vec3Lanes r = x_i - q;
+      const Lanes r2 = dot(r, r);
+      density += VW.W(r2);
+      grad -= VW.slope(r2) * r;
+    });
+    const Lanes C = max(density - Lanes(1), Lanes(floor));
+    const Lanes denominator = sum_grad2 + dot(grad, grad) + Lanes(epsilon);
+    // Without relaxation and without a gradient no correction could change C.
+    const Lanes lambda = select(denominator > Lanes(0), -C / denominator, Lanes(0));
+    store_records(x_lambda + slice.first, x_i, lambda);
+  });
+}
+
+/// s_ij, with the exponent known to the compiler, or 0: none; or −1:
+/// looked up.
+template <int kExponent>
+PBF_INLINE Lanes tensile(const TensileTerms& terms, Lanes VW_ij) {
+  if constexpr (kExponent == 0) {
+    return 0;
+  } else if constexpr (kExponent == 4) {
+    const Lanes ratio = VW_ij * Lanes(terms.inverse_W_dq);
+    const Lanes square = ratio * ratio;
+    return Lanes(-terms.k) * (square * square);
+  } else {
+    const Lanes ratio = VW_ij * Lanes(terms.inverse_W_dq);
+    Lanes power = ratio;
+    for (int k = 1; k < terms.exponent; ++k) power *= ratio;
+    return Lanes(-terms.k) * power;
+  }
+}
+
+/// The coordinate nearest to x from which a particle center may not stray; what is not a number
+/// stays so, to be found and reported at the end of the step.
+PBF_INLINE Lanes project(Lanes x, Real lower, Real upper) {
+  x = select(x < Lanes(lower), Lanes(lower), x);
+  return select(x > Lanes(upper), Lanes(upper), x);
+}
+
+template <int kExponent, class Kernel>
+void corrections(const Kernel& VW,
+                 const Stretch& at,
+                 const TensileTerms& terms,
+                 const Bounds3& centers,
+                 const Record* x_lambda,
+                 const Record* x,
+                 Record* x_star,
+                 Record* u) {
+  for_each_slice(at, [&](const Slice& slice) PBF_LAMBDA_INLINE {
+    const RecordLanes i = load_records(x_lambda + slice.first);
+    Vec3Lanes dp = {0, 0, 0};
+    slice.for_each_neighbor([&](const std::uint32_t* entries) PBF_LAMBDA_INLINE {
+      const RecordLanes j = gather(x_lambda, entries);
+      const Vec3Lanes r = i.xyz - j.xyz;
+      const Lanes r2 = dot(r, r);
+      dp -= (i.w + j.w + tensile<kExponent>(terms, VW.W(r2))) * VW.slope(r2) * r;
+    });
+    slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
+      const Vec3Lanes r = i.xyz - q;
+      const Lanes r2 = dot(r, r);
+      dp -= (i.w + tensile<kExponent>(terms, VW.W(r2))) * VW.slope(r2) * r;
+    });
+    const Vec3Lanes start = load_records(x + slice.first).xyz;
+    const Vec3Lanes u_i = load_records(u + slice.first).xyz;
+    const Vec3Lanes moved = i.xyz + dp;
+    Vec3Lanes allowed, displacement;
+    // The displacement grows by Δp, or ends where a wall holds the particle.
+    const auto collide = [&](Lanes Vec3Lanes::*axis, int k) PBF_LAMBDA_INLINE {
+      allowed.*axis = project(moved.*axis, centers.lower[k], centers.upper[k]);
+      displacement.*axis =
+          select(allowed.*axis == moved.*axis, u_i.*axis + dp.*axis, allowed.*axis - start.*axis);
+    };
+    collide(&Vec3Lanes::x, 0);
+    collide(&Vec3Lanes::y, 1);
+    collide(&Vec3Lanes::z, 2);
+    store_records(x_star + slice.first, allowed, i.w);
+    store_records(u + slice.first, displacement, 0);
+  });
+}
+
+template <class Kernel>
+void corrections(const Kernel& VW,
+                 const Stretch& at,
+                 const TensileTerms& terms,
+                 const Bounds3& centers,
+                 const Record* x_lambda,
+                 const Record* x,
+                 Record* x_star,
+                 Record* u) {
+  if (!(terms.k > 0)) {
+    corrections<0>(VW, at, terms, centers, x_lambda, x, x_star, u);
+  } else if (terms.exponent == 4) {
+    corrections<4>(VW, at, terms, centers, x_lambda, x, x_star, u);
+  } else {
+    corrections<-1>(VW, at, terms, centers, x_lambda, x, x_star, u);
+  }
+}
+
+}  // namespace pbf::PBF_ISA_NAMESPACE

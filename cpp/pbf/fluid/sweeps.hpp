@@ -1,0 +1,79 @@
+#pragma once
+
+#include "pbf/core/isa.hpp"
+#include "pbf/core/records.hpp"
+#include "pbf/kernels/cubic_spline.hpp"
+#include "pbf/kernels/poly6_spiky.hpp"
+#include "pbf/neighbors/sliced_rows.hpp"
+
+namespace pbf {
+
+/// A stretch of particles and what is near them: what a sweep works through.
+struct Stretch {
+  Index first, last;  ///< first is a multiple of kChunk, last at most one chunk farther
+  SliceView<std::uint32_t> neighbors;
+  SliceView<Real> walls;
+};
+
+/// Artificial repulsion, Eq. 13 [MM13], as numbers.
+struct TensileTerms {
+  Real k;             ///< [m²]
+  Real inverse_W_dq;  ///< 1 / (V W(Δq))
+  int exponent;
+};
+
+/// Where particle centers may be.
+struct Bounds3 {
+  Real lower[3], upper[3];
+};
+
+/// The loops over pairs of particles, for one kernel and one instruction set. The formulas are in
+/// the headers of the stages; a kernel comes with the particle volume V as its factor. Every sweep
+/// reads what is near its particles and writes their own records only, other records than it reads.
+template <class Kernel>
+struct Sweeps {
+  /// (x*, λ) from x*
+  void (*multipliers)(const Kernel& VW,
+                      const Stretch& at,
+                      Real epsilon,
+                      Real floor,
+                      const Record* x_star,
+                      Record* x_lambda);
+  /// x* and u = x* − x from (x*, λ)
+  void (*corrections)(const Kernel& VW,
+                      const Stretch& at,
+                      const TensileTerms& tensile,
+                      const Bounds3& centers,
+                      const Record* x_lambda,
+                      const Record* x,
+                      Record* x_star,
+                      Record* u);
+  /// (·, ρ/ρ0) from x
+  void (*densities)(const Kernel& VW, const Stretch& at, const Record* x, Record* density);
+  /// (v, ρ/ρ0) from x and v
+  void (*xsph)(const Kernel& VW,
+               const Stretch& at,
+               Real strength,
+               const Record* x,
+               const Record* v,
+               Record* v_new);
+  /// ω, and (x, ‖ω‖), from x and v
+  void (*vorticity)(const Kernel& VW,
+                    const Stretch& at,
+                    const Record* x,
+                    const Record* v,
+                    Record* omega,
+                    Record* x_strength);
+  /// v from (x, ‖ω‖) and ω
+  void (*confinement)(const Kernel& VW,
+                      const Stretch& at,
+                      Real impulse,
+                      const Record* x_strength,
+                      const Record* omega,
+                      Record* v);
+};
+
+const Sweeps<Poly6Spiky<Real>>& sweeps(const Poly6Spiky<Real>& kernel, Isa isa);
+const Sweeps<CubicSpline<Real>>& sweeps(const CubicSpline<Real>& kernel, Isa isa);
+
+}  // namespace pbf
