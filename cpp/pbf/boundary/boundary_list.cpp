@@ -10,44 +10,50 @@ void BoundaryList::build(const std::optional<WallLattice>& walls,
                          int threads) {
   rows_.resize(x.size(), lanes);
   parallel_chunks(x.size(), threads, kChunk, [&](Index first, Index last) {
-    auto& chunk = rows_.chunk(first);
-    chunk.ends.fill(0);
-    if (!walls) return;
-    thread_local std::vector<Vec3> sites;
-    std::array<std::size_t, static_cast<std::size_t>(kChunk + 1)> begins{};
-    sites.clear();
-    for (Index i = first; i < last; ++i) {
-      walls->for_each_near({x[i].x, x[i].y, x[i].z}, [&](const Vec3& q) { sites.push_back(q); });
-      begins[static_cast<std::size_t>(i - first + 1)] = sites.size();
-    }
-    const auto length = [&](Index row) {
-      const auto k = static_cast<std::size_t>(row);
-      return row < last - first ? begins[k + 1] - begins[k] : 0;
-    };
-    std::uint32_t slots = 0;
-    for (Index slice = 0; slice < last - first; slice += lanes) {
-      std::size_t longest = 0;
-      for (int lane = 0; lane < lanes; ++lane) longest = std::max(longest, length(slice + lane));
-      slots += static_cast<std::uint32_t>(longest);
-      chunk.ends[static_cast<std::size_t>(slice / lanes)] = slots;
-    }
-    Real* const out =
-        chunk.reserve(static_cast<std::size_t>(slots) * 3 * static_cast<std::size_t>(lanes));
-    std::uint32_t slot = 0;
-    for (Index slice = 0; slice < last - first; slice += lanes) {
-      const std::uint32_t end = chunk.ends[static_cast<std::size_t>(slice / lanes)];
-      for (std::size_t k = 0; slot < end; ++slot, ++k) {
-        for (int lane = 0; lane < lanes; ++lane) {
-          const bool has = k < length(slice + lane);
-          Real* const at = out + static_cast<Index>(slot) * 3 * lanes + lane;
-          for (int axis = 0; axis < 3; ++axis) {
-            at[axis * lanes] = has ? sites[begins[static_cast<std::size_t>(slice + lane)] + k][axis]
-                                   : Records::kFar;
-          }
-        }
+    rows_.chunk(first).ends.fill(0);
+    if (walls) build_chunk(*walls, x, first, last);
+  });
+}
+
+void BoundaryList::build_chunk(const WallLattice& walls,
+                               const Records& x,
+                               Index first,
+                               Index last) {
+  thread_local std::vector<Vec3> sites;  // row after row
+  std::array<std::uint32_t, static_cast<std::size_t>(kChunk + kMostLanes + 1)> begins{};
+  sites.clear();
+  for (Index i = first; i < last; ++i) {
+    walls.for_each_near({x[i].x, x[i].y, x[i].z}, [&](const Vec3& q) { sites.push_back(q); });
+    begins[static_cast<std::size_t>(i - first + 1)] = static_cast<std::uint32_t>(sites.size());
+  }
+  const auto count = static_cast<std::size_t>(last - first);
+  std::fill(begins.begin() + static_cast<Index>(count) + 1, begins.end(), begins[count]);
+
+  auto& chunk = rows_.chunk(first);
+  const auto lanes = static_cast<std::size_t>(rows_.lanes());
+  std::uint32_t slots = 0;
+  for (std::size_t row = 0; row < count; row += lanes) {
+    std::uint32_t longest = 0;
+    for (std::size_t k = row; k < row + lanes; ++k)
+      longest = std::max(longest, begins[k + 1] - begins[k]);
+    slots += longest;
+    chunk.ends[row / lanes] = slots;
+  }
+  Real* out = chunk.reserve(3 * slots * lanes);
+  for (std::size_t row = 0; row < count; row += lanes) {
+    const std::size_t begin = row == 0 ? 0 : chunk.ends[row / lanes - 1];
+    Real* const end = out + 3 * lanes * (chunk.ends[row / lanes] - begin);
+    std::fill(out, end, Records::kFar);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      Real* at = out + lane;
+      for (std::size_t k = begins[row + lane]; k < begins[row + lane + 1]; ++k, at += 3 * lanes) {
+        at[0] = sites[k][0];
+        at[lanes] = sites[k][1];
+        at[2 * lanes] = sites[k][2];
       }
     }
-  });
+    out = end;
+  }
 }
 
 std::vector<Vec3> BoundaryList::operator[](Index i) const {

@@ -23,6 +23,8 @@ class BoundaryList {
   [[nodiscard]] std::vector<Vec3> operator[](Index i) const;
 
  private:
+  void build_chunk(const WallLattice& walls, const Records& x, Index first, Index last);
+
   SlicedRows<Real> rows_;
 };
 

@@ -24,13 +24,18 @@ class WallLattice {
   void for_each_near(const Vec3& x, F&& f) const {
     if (((x - box_.lower).array() >= h_).all() && ((box_.upper - x).array() >= h_).all()) return;
     const std::array<Sites, 3> sites{sites_near(0, x[0]), sites_near(1, x[1]), sites_near(2, x[2])};
+    const Real h2 = h_ * h_;
     for (int c = 0; c < sites[2].size; ++c) {
+      const Real z2 = square(x[2] - sites[2].at[c]);
       for (int b = 0; b < sites[1].size; ++b) {
+        const Real yz2 = square(x[1] - sites[1].at[b]) + z2;
+        if (!(yz2 < h2)) continue;
         const bool inside = sites[2].inside(c) && sites[1].inside(b);
         for (int a = 0; a < sites[0].size; ++a) {
           if (inside && sites[0].inside(a)) continue;
-          const Vec3 q{sites[0].at[a], sites[1].at[b], sites[2].at[c]};
-          if ((x - q).squaredNorm() < h_ * h_) f(q);
+          if (square(x[0] - sites[0].at[a]) + yz2 < h2) {
+            f(Vec3{sites[0].at[a], sites[1].at[b], sites[2].at[c]});
+          }
         }
       }
     }
@@ -41,13 +46,14 @@ class WallLattice {
   struct Sites {
     // h is at most 4 d and inner cells at least 2/3 d: 2 · (4 + 1) outside and 2 · 4 / (2/3) + 2
     // inside.
-    std::array<Real, 24> at{};
+    std::array<Real, 24> at;
     int size = 0;
     int first_inside = 0;
     int end_inside = 0;
     [[nodiscard]] bool inside(int k) const { return k >= first_inside && k < end_inside; }
   };
   [[nodiscard]] Sites sites_near(int axis, Real x) const;
+  static Real square(Real a) { return a * a; }
 
   Box box_;
   Real spacing_, h_;

@@ -31,7 +31,7 @@ struct Scan {
   std::uint32_t* (*rows)(const Record* x,
                          std::uint32_t begin,
                          std::uint32_t end,
-                         const Candidates& candidates,
+                         Candidates candidates,
                          std::uint32_t self,
                          Real h2,
                          std::uint32_t filler,

@@ -84,7 +84,7 @@ PBF_INLINE std::uint32_t* compress(Mask mask, Entries entries, std::uint32_t* ou
 std::uint32_t* rows(const Record* x,
                     std::uint32_t begin,
                     std::uint32_t end,
-                    const Candidates& candidates,
+                    Candidates candidates,
                     std::uint32_t self,
                     Real h2,
                     std::uint32_t filler,
