@@ -39,21 +39,23 @@ void multipliers(const Kernel& VW,
   });
 }
 
-/// s_ij, with the exponent known to the compiler, or 0: none; or −1:
-/// looked up.
+/// s_ij, with the exponent known to the compiler; 0: none; −1: any, looked up.
+/// Powers end at 1e-24 and 1e-30: W falls to nothing towards the support radius, and numbers below
+/// float32's normal range (1e-38) cost a processor more than the whole pair.
 template <int kExponent>
 PBF_INLINE Lanes tensile(const TensileTerms& terms, Lanes VW_ij) {
   if constexpr (kExponent == 0) {
     return 0;
-  } else if constexpr (kExponent == 4) {
-    const Lanes ratio = VW_ij * Lanes(terms.inverse_W_dq);
-    const Lanes square = ratio * ratio;
-    return Lanes(-terms.k) * (square * square);
   } else {
     const Lanes ratio = VW_ij * Lanes(terms.inverse_W_dq);
-    Lanes power = ratio;
-    for (int k = 1; k < terms.exponent; ++k) power *= ratio;
-    return Lanes(-terms.k) * power;
+    if constexpr (kExponent == 4) {
+      const Lanes square = max(ratio * ratio, Lanes(1e-12F));
+      return Lanes(-terms.k) * (square * square);
+    } else {
+      Lanes power = ratio;
+      for (int k = 1; k < terms.exponent; ++k) power = max(power * ratio, Lanes(1e-30F));
+      return Lanes(-terms.k) * power;
+    }
   }
 }
 
