@@ -27,11 +27,11 @@ format:  ## write the format that lint asks for
 	@scripts/setup.sh lint
 	scripts/lint.sh --fix
 
-bench:  ## time the step and the neighbor search
+bench:  ## time the step and its stages, and say how near they are to what the machine can do
 	@scripts/setup.sh bench
 	cmake --workflow --preset bench
-	build/bench/bench/bench_step
-	build/bench/bench/bench_neighbors
+	@mkdir -p out
+	OMP_WAIT_POLICY=passive build/bench/bench/pbf_bench --benchmark_out=out/bench.json
 
 docs:  ## write the generated pages and type stubs again
 	@scripts/setup.sh docs

@@ -1,0 +1,19 @@
+#include "stages.hpp"
+
+namespace pbf::bench {
+namespace {
+
+/// λ, first half of an iteration.
+void multipliers(benchmark::State& state) { time_stage(state, Stage::multipliers); }
+BENCHMARK(multipliers)->Apply(rows);
+
+/// Δp, second half of an iteration.
+void corrections(benchmark::State& state) { time_stage(state, Stage::corrections); }
+BENCHMARK(corrections)->Apply(rows);
+
+/// ρ, once at the end of a step.
+void density(benchmark::State& state) { time_stage(state, Stage::density); }
+BENCHMARK(density)->Apply(rows);
+
+}  // namespace
+}  // namespace pbf::bench

@@ -1,0 +1,13 @@
+#include "stages.hpp"
+
+namespace pbf::bench {
+namespace {
+
+/// Vorticity confinement, which is off by default.
+void vorticity(benchmark::State& state) {
+  time_stage(state, Stage::vorticity, {.vorticity = 0.01F});
+}
+BENCHMARK(vorticity)->Apply(rows);
+
+}  // namespace
+}  // namespace pbf::bench
