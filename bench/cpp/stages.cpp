@@ -21,7 +21,6 @@ constexpr Real kTimeStep = 1.0F / 240;
 constexpr int kStepsToMotion = 40;
 constexpr int kTimedSteps = 5;
 constexpr double kMostDensityError = 0.03;
-constexpr double kBytesPerNeighbor = sizeof(std::uint32_t);  // of NeighborList
 
 bool wrong_result = false;
 
@@ -33,14 +32,15 @@ Simulation tank(Index n, const SolverParams& solver) {
 
 struct Motion {
   Points x, v;
-  double pairs;  ///< of neighbors, from both sides
+  double pairs = 0;       ///< of neighbors, from both sides
+  double list_bytes = 0;  ///< least size of their lists
 };
 
 double count_pairs(const Points& x, Real h) {
   CellGrid grid;
-  grid.build(x, h, 0);
+  grid.build(records_of(x), h, 0);
   NeighborList list;
-  list.build(grid, gathered(x, grid.order()), h, 0);
+  list.build(grid, records_of(gathered(x, grid.order())), h, 0);
   double pairs = 0;
   for (Index i = 0; i < list.size(); ++i) pairs += static_cast<double>(list[i].size());
   return pairs;
@@ -56,8 +56,9 @@ const Motion& dam_break_in_motion(Index n) {
   const Real side = domain.upper.z();
   simulation.add_particles(block({0, 0, 0}, {side, side, side}, simulation.fluid().spacing));
   for (int k = 0; k < kStepsToMotion; ++k) simulation.step(kTimeStep);
-  Motion motion{simulation.positions(), simulation.velocities(), 0};
+  Motion motion{simulation.positions(), simulation.velocities()};
   motion.pairs = count_pairs(motion.x, simulation.fluid().h());
+  motion.list_bytes = motion.pairs * sizeof(std::uint32_t);
   return motions.emplace(n, std::move(motion)).first->second;
 }
 
@@ -119,7 +120,7 @@ void time_stage(benchmark::State& state, std::optional<Stage> stage, SolverParam
     const bool was_off = total.milliseconds[k] == 0;
     if (was_off || part != stage.value_or(part)) continue;
     const Floor floor =
-        floor_of(part, particles, motion.pairs, kBytesPerNeighbor * motion.pairs, roof_of(threads));
+        floor_of(part, particles, motion.pairs, motion.list_bytes, roof_of(threads));
     least_seconds += passes(part, total) * floor.seconds();
     if (stage) {
       label << floor.roof() << ", ";
@@ -131,6 +132,7 @@ void time_stage(benchmark::State& state, std::optional<Stage> stage, SolverParam
   state.SetLabel(label.str());
   state.counters["particles"] = particles;
   state.counters["pairs_per_particle"] = motion.pairs / particles;
+  state.counters["bytes_per_particle"] = static_cast<double>(simulation.bytes()) / particles;
   state.counters["ns_per_particle"] =
       1e9 * seconds / (particles * (stage ? passes(*stage, total) : total.steps));
   state.counters["roof_share"] = least_seconds / seconds;

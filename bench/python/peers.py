@@ -1,0 +1,255 @@
+"""The solvers that vs_peers.py compares, all behind the same few calls.
+
+A further solver is a class with the members of `Solver` and an entry in SYSTEMS. Solvers are
+imported where they are used: each lives in a process of its own, with its own threads.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+GRAVITY = (0.0, -9.81, 0.0)
+
+
+@dataclass(frozen=True)
+class DamBreak:
+    """A cube of fluid about to fall over in a tank three times as long: bench/cpp/dam_break.hpp."""
+
+    side: int = 39  # particles along an edge of the cube
+    spacing: float = 0.02
+    time_step: float = 1 / 240
+    iterations: int = 4
+    threads: int = 2
+    xsph: float = 0.0
+    vorticity: float = 0.0
+
+    @property
+    def edge(self) -> float:
+        return self.side * self.spacing
+
+    @property
+    def tank(self) -> tuple[float, float, float]:
+        return 3 * self.edge, 2 * self.edge, self.edge
+
+
+class Solver(Protocol):
+    """The dam break at its start."""
+
+    support_radius: float  # [m]
+    search_ms: float | None  # spent in the neighbor search until now; None if it does not say
+
+    def step(self) -> None:
+        """Advance by one time step."""
+
+    def positions(self) -> NDArray[np.float32]:
+        """Return the particles' centers, shape (n, 3)."""
+
+
+class PBFluids:
+    def __init__(self, case: DamBreak) -> None:
+        import pbfluids as pbf
+
+        self.time_step = case.time_step
+        self.support_radius = 2 * case.spacing
+        self.search_ms = 0.0
+        solver = pbf.SolverParams(
+            iterations=case.iterations,
+            num_threads=case.threads,
+            xsph=case.xsph,
+            vorticity=case.vorticity,
+        )
+        fluid = pbf.FluidParams(spacing=case.spacing, gravity=GRAVITY)
+        self.simulation = pbf.Simulation(fluid, solver, domain=pbf.Box((0, 0, 0), case.tank))
+        self.simulation.add_particles(pbf.block((0, 0, 0), (case.edge,) * 3, case.spacing))
+
+    def step(self) -> None:
+        self.search_ms += self.simulation.step(self.time_step).milliseconds["neighbors"]
+
+    def positions(self) -> NDArray[np.float32]:
+        return self.simulation.positions
+
+
+class SPlisHSPlasH:
+    """pySPlisHSPlasH with one of its pressure solvers, everything else as it comes."""
+
+    CUBE_FACES = "124 143 578 586 156 162 348 387 137 175 268 284"  # outward, as lines of an .obj
+
+    def __init__(self, case: DamBreak, method: str, iterations: int | None = None) -> None:
+        import pysplishsplash as sph
+
+        self.sph = sph
+        self.count = case.side**3
+        self.method = method
+        self.iterations = iterations  # exactly so many; None for its own stopping rule
+        self.folder = tempfile.TemporaryDirectory()
+        self.base = sph.Exec.SimulatorBase()
+        self.base.init(
+            sceneFile=str(self._write_scene(Path(self.folder.name), case, method)),
+            outputDir=self.folder.name,
+            useCache=False,
+            useGui=False,
+            stopAt=case.time_step / 2,
+        )
+        self.base.initSimulation()
+        self.simulation = sph.Simulation.getCurrent()
+        self.fluid = self.simulation.getFluidModel(0)
+        self._set_parameters(case)
+        # Walls are built by runSimulation alone. It stops after the first step, the rest is ours.
+        self.base.runSimulation()
+        self.base.setValueFloat(self.base.STOP_AT, -1.0)
+        self.support_radius = self.simulation.getSupportRadius()
+
+    @classmethod
+    def _write_scene(cls, folder: Path, case: DamBreak, method: str) -> Path:
+        import pysplishsplash as sph
+
+        corners = itertools.product((-0.5, 0.5), repeat=3)
+        lines = [f"v {x} {y} {z}" for x, y, z in corners]
+        lines += ["f " + " ".join(face) for face in cls.CUBE_FACES.split()]
+        (folder / "cube.obj").write_text("\n".join(lines), encoding="ascii")
+
+        # Its walls push from a spacing away, not from half of one as the lattice's planes have it.
+        gap = case.spacing / 2
+        size = [length + 2 * gap for length in case.tank]
+        walls = {
+            "geometryFile": "cube.obj",
+            "translation": [length / 2 for length in case.tank],
+            "scale": size,
+            "isWall": True,
+            "mapInvert": True,
+            # Cells of 2.5 spacings, as in its DoubleDamBreak.
+            "mapResolution": [round(length / (2.5 * case.spacing)) for length in size],
+        }
+        # Between two particles of a block and its faces it leaves a whole spacing.
+        block = {"start": [-gap] * 3, "end": [case.edge + gap] * 3}
+        scene = {
+            "Configuration": {
+                "particleRadius": case.spacing / 2,
+                "simulationMethod": getattr(sph.SimulationMethods, method).value,
+                "timeStepSize": case.time_step,
+                "cflMethod": 0,  # the time step stays as it is
+                "gravitation": GRAVITY,
+            },
+            "Materials": [{"id": "Fluid", "maxEmitterParticles": 0}],
+            "RigidBodies": [walls],
+            "FluidBlocks": [{"id": "Fluid", "denseMode": 0, **block}],
+        }
+        path = folder / "scene.json"
+        path.write_text(json.dumps(scene), encoding="ascii")
+        return path
+
+    def _set_parameters(self, case: DamBreak) -> None:
+        """Set what version 2.19 does not take from the scene without its window."""
+        if self.iterations:
+            pressure = self.simulation.getTimeStep()
+            pressure.setValueUInt(pressure.MIN_ITERATIONS, self.iterations)
+            pressure.setValueUInt(pressure.MAX_ITERATIONS, self.iterations)
+        xsph = self.fluid.getXSPH()
+        xsph.setValueFloat(xsph.FLUID_COEFFICIENT, case.xsph)
+        if case.vorticity:
+            self.fluid.setVorticityMethod("Vorticity confinement")
+            confinement = self.fluid.getVorticityBase()
+            confinement.setValueFloat(confinement.VORTICITY_COEFFICIENT, case.vorticity)
+
+    @property
+    def search_ms(self) -> float:
+        timers = self.sph.Utilities.Timing.m_averageTimes.values()
+        return sum(t.totalTime for t in timers if t.name == "neighborhood_search")
+
+    def step(self) -> None:
+        self.base.timeStepNoGUI()
+
+    def positions(self) -> NDArray[np.float32]:
+        solver = self.simulation.getTimeStep()
+        method, iterations = solver.getMethodName(), solver.getNumIterations()
+        if method != self.method or self.iterations not in {None, iterations}:
+            raise RuntimeError(f"ran {iterations} iterations of {method}, not what was asked for")
+        return np.array(self.fluid.getFieldBuffer("position"))[: self.count]
+
+
+class Genesis:
+    """Genesis' PBD.Liquid on the CPU. XSPH is always on in it, vorticity confinement never."""
+
+    search_ms = None
+
+    def __init__(self, case: DamBreak) -> None:
+        import genesis as gs
+
+        gs.init(backend=gs.cpu, precision="32", logging_level="error")
+        self.support_radius = 1.25 * case.spacing  # fixed in its solver
+        # Its walls stop centers, so they are where ours would; particles on them it refuses.
+        gap = 0.499 * case.spacing
+        self.scene = gs.Scene(
+            show_viewer=False,
+            sim_options=gs.options.SimOptions(dt=case.time_step, substeps=1, gravity=GRAVITY),
+            pbd_options=gs.options.PBDOptions(
+                particle_size=case.spacing,
+                max_density_solver_iterations=case.iterations,
+                lower_bound=(gap,) * 3,
+                upper_bound=tuple(length - gap for length in case.tank),
+            ),
+        )
+        # Density 1 and full relaxation as in its own example of a liquid: at the default of 1000
+        # the constraint's gradients drown in its regularization and the fluid falls flat.
+        self.fluid = self.scene.add_entity(
+            material=gs.materials.PBD.Liquid(
+                rho=1.0, density_relaxation=1.0, viscosity_relaxation=case.xsph, sampler="regular"
+            ),
+            morph=gs.morphs.Box(lower=(0, 0, 0), upper=(case.edge,) * 3),
+        )
+        self.scene.build()
+
+    def step(self) -> None:
+        self.scene.step(update_visualizer=False)
+
+    def positions(self) -> NDArray[np.float32]:
+        return self.fluid.get_particles_pos().numpy()
+
+
+# What a step does → the changes to DamBreak. The amounts mean something else in each solver; the
+# work does not depend on them.
+WORK: dict[str, dict[str, float]] = {
+    "density constraint": {},
+    "with XSPH": {"xsph": 0.01},
+    "with XSPH and vorticity": {"xsph": 0.01, "vorticity": 0.01},
+}
+
+
+@dataclass(frozen=True)
+class System:
+    """How to get a solver, and what it can do."""
+
+    make: Callable[[DamBreak], Solver]
+    package: str  # on PyPI
+    needs: str  # said if it does not start
+    work: tuple[str, ...] = tuple(WORK)
+    environment: dict[str, str] = field(default_factory=dict)
+
+
+def position_based(case: DamBreak) -> SPlisHSPlasH:
+    return SPlisHSPlasH(case, "PBF", iterations=case.iterations)
+
+
+OURS = "pbfluids"
+SYSTEMS: dict[str, System] = {
+    OURS: System(PBFluids, "pbfluids", needs="an installed pbfluids"),
+    "pySPlisHSPlasH PBF": System(
+        position_based,
+        "pySPlisHSPlasH",
+        needs="the system's libGL.so.1 (Debian: libgl1)",
+        # The wheel comes with parts of OpenGL that crash unless the system's are loaded first.
+        environment={"LD_PRELOAD": "libGL.so.1"},
+    ),
+    "Genesis PBD.Liquid": System(
+        Genesis, "genesis-world", needs="torch, for CPUs will do", work=("with XSPH",)
+    ),
+}
