@@ -43,9 +43,9 @@ constexpr Model model_of(Stage stage) {
     // η: 14 + ∇W/r, ‖ω_j‖ 1, Σ 6. Reads x and ‖ω‖, ω, v, writes v in the lines it has read.
     case Stage::vorticity:
       return {.flops = 35 + 24, .records = 2 + 1, .bytes = 56 + 52, .lists = 2};
-    // 8 + W, v_j − v_i 3, Σ 6. Reads x, v, writes v.
+    // 8 + W + ΣW, v_j − v_i 3, Σ 6. Reads x, v, writes v and ρ.
     case Stage::xsph:
-      return {.flops = 20, .records = 2, .bytes = 48, .lists = 1};
+      return {.flops = 21, .records = 2, .bytes = 48, .lists = 1};
     // 8 + W + ΣW. Reads x, writes ρ.
     case Stage::density:
       return {.flops = 12, .records = 1, .bytes = 20, .lists = 1};
