@@ -1,6 +1,6 @@
-"""Time whole steps of scenes over thread counts; CSV on stdout, one row per run.
+"""Time whole steps of scenes over threads and instruction sets; CSV on stdout, one row per run.
 
-``python bench/python/run_scenes.py dam_break resting_tank --threads 1 2 --steps 100``
+``python bench/python/run_scenes.py dam_break resting_tank --threads 1 2 --isa all --steps 100``
 
 Rows of one scene must show one hash: the same work, bit for bit. The rules are in bench/README.md.
 """
@@ -9,19 +9,22 @@ from __future__ import annotations
 
 import argparse
 import csv
+import itertools
 import os
 import statistics
-import subprocess
 import sys
 import time
-from pathlib import Path
+
+from machine import commit, processor
 
 import pbfluids as pbf
+from pbfluids._core import build_info, instruction_sets
 
 COLUMNS = [
     "scene",
     "particles",
     "threads",
+    "isa",
     "steps",
     "ms_min",
     "ms_median",
@@ -29,15 +32,8 @@ COLUMNS = [
     "max_density_error",
     "hash",
     "commit",
+    "processor",
 ]
-
-
-def commit() -> str:
-    """Short hash of the commit that is checked out, with a mark if files differ from it."""
-    command = ["git", "describe", "--always", "--dirty"]
-    here = Path(__file__).parent
-    done = subprocess.run(command, cwd=here, capture_output=True, text=True, check=False)
-    return done.stdout.strip() or "unknown"
 
 
 def timed_run(name: str, threads: int, warm_up: int, steps: int) -> dict[str, object]:
@@ -56,6 +52,7 @@ def timed_run(name: str, threads: int, warm_up: int, steps: int) -> dict[str, ob
         "scene": name,
         "particles": len(simulation),
         "threads": threads,
+        "isa": build_info()["instruction_set"],
         "steps": steps,
         "ms_min": f"{min(milliseconds):.3f}",
         "ms_median": f"{statistics.median(milliseconds):.3f}",
@@ -69,6 +66,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="+", choices=pbf.Scene.names())
     parser.add_argument("--threads", nargs="+", type=int, default=[1, os.cpu_count() or 1])
+    parser.add_argument("--isa", nargs="+", choices=[*instruction_sets(), "all"])
     parser.add_argument("--warm-up", type=int, default=20)
     parser.add_argument("--steps", type=int, default=60)
     options = parser.parse_args()
@@ -76,14 +74,17 @@ def main() -> int:
     writer = csv.DictWriter(sys.stdout, COLUMNS)
     writer.writeheader()
     hashes: dict[str, set[object]] = {}
-    for name in options.scenes:
-        for threads in options.threads:
-            row = timed_run(name, threads, options.warm_up, options.steps)
-            hashes.setdefault(name, set()).add(row["hash"])
-            writer.writerow(row | {"commit": commit()})
+    isas = options.isa or [build_info()["instruction_set"]]
+    for name, threads, isa in itertools.product(
+        options.scenes, options.threads, instruction_sets() if "all" in isas else isas
+    ):
+        os.environ["PBF_ISA"] = isa
+        row = timed_run(name, threads, options.warm_up, options.steps)
+        hashes.setdefault(name, set()).add(row["hash"])
+        writer.writerow(row | {"commit": commit(), "processor": processor()})
     different = [name for name, found in hashes.items() if len(found) > 1]
     if different:
-        print(f"not the same bits for every thread count: {', '.join(different)}", file=sys.stderr)
+        print(f"not the same bits in every row: {', '.join(different)}", file=sys.stderr)
     return 1 if different else 0
 
 

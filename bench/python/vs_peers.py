@@ -14,8 +14,6 @@ import argparse
 import json
 import multiprocessing
 import os
-import platform
-import re
 import statistics
 import sys
 import time
@@ -26,9 +24,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from machine import commit, processor
 from numpy.typing import NDArray
 from peers import OURS, SYSTEMS, WORK, DamBreak
-from run_scenes import commit
 
 import pbfluids as pbf
 from pbfluids._core import build_info
@@ -160,16 +158,6 @@ def installed() -> tuple[dict[str, str], dict[str, str]]:
         except PackageNotFoundError:
             skipped[name] = f"not installed: pip install {system.package}"
     return versions, skipped
-
-
-def processor() -> str:
-    """Name of the processor, for the caption."""
-    try:
-        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    except OSError:
-        text = ""
-    found = re.search(r"^model name\s*: (.*)$", text, re.MULTILINE)
-    return found.group(1) if found else platform.processor()
 
 
 def result(case: DamBreak, plan: Plan) -> dict[str, Any]:
