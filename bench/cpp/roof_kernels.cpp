@@ -1,5 +1,5 @@
 // Compiled once per instruction set. Nothing here may call an inline function of a header that is
-// not an intrinsic: the linker keeps one copy of it, which might be one that this machine cannot run.
+// not an intrinsic: the linker keeps one copy of it, perhaps one that this machine cannot run.
 #include "roof_kernels.hpp"
 
 #include <utility>

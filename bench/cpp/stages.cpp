@@ -21,7 +21,7 @@ namespace {
 constexpr Real kTimeStep = 1.0F / 240;
 constexpr int kStepsToMotion = 40;
 constexpr int kTimedSteps = 5;
-constexpr double kMostDensityError = 0.03;
+constexpr double kMostDensityError = 0.05;
 
 bool wrong_result = false;
 
