@@ -117,9 +117,9 @@ class SPlisHSPlasH:
         lines += ["f " + " ".join(face) for face in cls.CUBE_FACES.split()]
         (folder / "cube.obj").write_text("\n".join(lines), encoding="ascii")
 
-        # Its walls push from a spacing away, not from half of one as the lattice's planes have it.
-        gap = case.spacing / 2
-        size = [length + 2 * gap for length in case.tank]
+        # A spacing farther out than ours: its walls push from afar and throw off a block that is
+        # nearer. It leaves as much in its own DoubleDamBreak. The fluid then fills the same space.
+        size = [length + 2 * case.spacing for length in case.tank]
         walls = {
             "geometryFile": "cube.obj",
             "translation": [length / 2 for length in case.tank],
@@ -129,8 +129,9 @@ class SPlisHSPlasH:
             # Cells of 2.5 spacings, as in its DoubleDamBreak.
             "mapResolution": [round(length / (2.5 * case.spacing)) for length in size],
         }
-        # Between two particles of a block and its faces it leaves a whole spacing.
-        block = {"start": [-gap] * 3, "end": [case.edge + gap] * 3}
+        # It leaves a whole spacing between the faces of a block and the first particles.
+        half = case.spacing / 2
+        block = {"start": [-half] * 3, "end": [case.edge + half] * 3}
         scene = {
             "Configuration": {
                 "particleRadius": case.spacing / 2,
