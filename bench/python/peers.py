@@ -10,7 +10,7 @@ import itertools
 import json
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol
 
@@ -236,6 +236,10 @@ class System:
     environment: dict[str, str] = field(default_factory=dict)
 
 
+def six_iterations(case: DamBreak) -> PBFluids:
+    return PBFluids(replace(case, iterations=6))
+
+
 def position_based(case: DamBreak) -> SPlisHSPlasH:
     return SPlisHSPlasH(case, "PBF", iterations=case.iterations)
 
@@ -243,6 +247,10 @@ def position_based(case: DamBreak) -> SPlisHSPlasH:
 OURS = "pbfluids"
 SYSTEMS: dict[str, System] = {
     OURS: System(PBFluids, "pbfluids", needs="an installed pbfluids"),
+    # About the density error that pySPlisHSPlasH has after four.
+    "pbfluids, 6 iterations": System(
+        six_iterations, "pbfluids", needs="an installed pbfluids", work=("density constraint",)
+    ),
     "pySPlisHSPlasH PBF": System(
         position_based,
         "pySPlisHSPlasH",

@@ -150,11 +150,11 @@ def measure(work: str, case: DamBreak, plan: Plan, skipped: dict[str, str]) -> l
 
 
 def installed() -> tuple[dict[str, str], dict[str, str]]:
-    """Return the versions of the solvers that are here and what to do about the others."""
+    """Return the versions of the packages that are here; and solver → remedy for the others."""
     versions, skipped = {}, {}
     for name, system in SYSTEMS.items():
         try:
-            versions[name] = version(system.package)
+            versions[system.package] = version(system.package)
         except PackageNotFoundError:
             skipped[name] = f"not installed: pip install {system.package}"
     return versions, skipped
@@ -203,16 +203,16 @@ def step_rows(runs: list[dict[str, Any]]) -> list[str]:
 
 
 def search_rows(runs: list[dict[str, Any]], threads: int) -> list[str]:
-    """Write a row for each neighbor search; SciPy's is on our particles."""
-    plain = [run for run in runs if run["work"] == next(iter(WORK))]
-    searches = [
-        (f"{run['system']}, {threads} threads", run["search_ms"])
-        for run in plain
-        if None not in run["search_ms"]
+    """Write a row for each neighbor search, which is the same whatever else a step does."""
+    found: dict[str, list[float]] = {}
+    for run in runs:
+        if None not in run["search_ms"]:
+            name = f"{SYSTEMS[run['system']].package}, {threads} threads"
+            found.setdefault(name, []).extend(run["search_ms"])
+    found["SciPy cKDTree, build and query_pairs, 1 thread"] = [
+        ms for run in runs if run["system"] == OURS for ms in run["tree_ms"]
     ]
-    trees = [run["tree_ms"] for run in plain if run["system"] == OURS]
-    searches += [("SciPy cKDTree, build and query_pairs, 1 thread", ms) for ms in trees]
-    return [f"| {name} | {statistics.median(ms):.0f} |" for name, ms in searches]
+    return [f"| {name} | {statistics.median(ms):.0f} |" for name, ms in found.items()]
 
 
 def tables(found: dict[str, Any]) -> str:
