@@ -23,7 +23,7 @@ void multipliers(const Kernel& VW,
       const Lanes s = VW.slope(r2);
       density += VW.W(r2);
       grad -= s * r;
-      sum_grad2 += s * s * r2;
+      sum_grad2 += s * r2 * s;  // in this order no product overflows where r is nothing
     });
     slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
       const Vec3Lanes r = x_i - q;

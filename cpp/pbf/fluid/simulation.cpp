@@ -20,16 +20,6 @@ std::string particle_text(const PointsView& points, Index i) {
   return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
 }
 
-/// to[k] = from[order[k]], and from has it then
-template <class Array>
-void sort(Array& from, const std::vector<std::uint32_t>& order, int threads, Array& to) {
-  to.resize(from.size());
-  parallel_for(static_cast<Index>(order.size()), threads, [&](Index k) {
-    to[static_cast<std::size_t>(k)] = from[order[static_cast<std::size_t>(k)]];
-  });
-  from.swap(to);
-}
-
 Ids consecutive(std::int64_t first, Index count) {
   Ids ids(count);
   std::iota(ids.begin(), ids.end(), first);
@@ -107,6 +97,8 @@ StepReport Simulation::step(Real dt) {
   {
     const auto t = report.time(Stage::neighbors);
     sort_by_cell();
+    // Cheaper than to bring x* and u into the new order.
+    predict(state_.x, state_.v, disc_, dt, threads, x_star_, u_);
     near_.fluid.build(grid_, x_star_, disc_.h, threads);
   }
   {
@@ -170,13 +162,19 @@ StepReport Simulation::advance(Real seconds, const std::function<void()>& betwee
 void Simulation::sort_by_cell() {
   const int threads = solver_.num_threads;
   grid_.build(x_star_, disc_.h, threads);
-  x_lambda_.resize(size());  // all memory first: a failure must not leave half of it sorted
+  Records &x = x_lambda_, &v = v_new_;
+  x.resize(size());
+  v.resize(size());
   sorted_ids_.resize(state_.ids.size());
-  sort(state_.x, grid_.order(), threads, x_lambda_);
-  sort(state_.v, grid_.order(), threads, x_lambda_);
-  sort(x_star_, grid_.order(), threads, x_lambda_);
-  sort(u_, grid_.order(), threads, x_lambda_);
-  sort(state_.ids, grid_.order(), threads, sorted_ids_);
+  parallel_for(size(), threads, [&](Index k) {
+    const std::uint32_t from = grid_.order()[static_cast<std::size_t>(k)];
+    x[k] = state_.x[from];
+    v[k] = state_.v[from];
+    sorted_ids_[static_cast<std::size_t>(k)] = state_.ids[from];
+  });
+  state_.x.swap(x);
+  state_.v.swap(v);
+  state_.ids.swap(sorted_ids_);
 }
 
 /// Density errors at the positions the step ends with, from (v, ρ/ρ0); throws if any number is not
@@ -225,12 +223,12 @@ Scalars Simulation::densities() const {
   const int threads = solver_.num_threads;
   CellGrid grid;
   grid.build(state_.x, disc_.h, threads);
-  Records x = state_.x, sorted;
-  sort(x, grid.order(), threads, sorted);
+  Records x(size()), density;
+  for (Index k = 0; k < size(); ++k) x[k] = state_.x[grid.order()[static_cast<std::size_t>(k)]];
   Neighborhood near;
   near.build(grid, x, disc_, threads);
-  relative_densities(near, disc_, x, threads, sorted);
-  const Scalars in_state_order = scattered(scalars_of(sorted), grid.order());
+  relative_densities(near, disc_, x, threads, density);
+  const Scalars in_state_order = scattered(scalars_of(density), grid.order());
   return disc_.fluid.rest_density * scattered(in_state_order, state_.ids);
 }
 

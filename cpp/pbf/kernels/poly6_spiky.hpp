@@ -29,6 +29,7 @@ struct Poly6Spiky {
     a_per_h2_ = static_cast<T>(a / (radius * radius));
     b_ = static_cast<T>(b);
     b_per_h_ = static_cast<T>(b / radius);
+    least_r2_ = static_cast<T>(1e-20 * radius * radius);
   }
 
   /// W as a function of the squared distance: callers have it, and no square root is needed.
@@ -40,13 +41,14 @@ struct Poly6Spiky {
   /// The s ≥ 0 with ∇W = −s · r                                                          [1/m⁵]
   template <class A>
   [[gnu::always_inline]] A slope(A r2) const {
-    const A r = sqrt(r2);
+    // Finite where r = 0, so that s · r is zero there.
+    const A r = sqrt(max(r2, A(least_r2_)));
     const A d = max(A(b_) - r * A(b_per_h_), A(0));
-    return d * d / select(r > A(0), r, A(1));
+    return d * d / r;
   }
 
  private:
-  T a_, a_per_h2_, b_, b_per_h_;
+  T a_, a_per_h2_, b_, b_per_h_, least_r2_;
 };
 
 }  // namespace pbf
