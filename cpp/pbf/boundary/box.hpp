@@ -12,12 +12,12 @@ struct Box {
   /// The point of the box nearest to x: collision response without friction or bounce.
   /// What is not a number stays so, to be found and reported at the end of the step.
   [[nodiscard]] Vec3 project(const Vec3& x) const {
-    Vec3 inside = x;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (x[axis] < lower[axis]) inside[axis] = lower[axis];
-      if (x[axis] > upper[axis]) inside[axis] = upper[axis];
-    }
-    return inside;
+    return {project(0, x[0]), project(1, x[1]), project(2, x[2])};
+  }
+  /// The same for one coordinate.
+  [[nodiscard]] Real project(int axis, Real x) const {
+    const Real raised = x < lower[axis] ? lower[axis] : x;
+    return raised > upper[axis] ? upper[axis] : raised;
   }
   [[nodiscard]] bool contains(const Vec3& x) const {
     return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();

@@ -29,10 +29,10 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
   }
   sites.first_inside = sites.size;
   const Real size = cell_size_[axis];
-  const Index first =
-      std::max<Index>(0, static_cast<Index>(std::floor((from_lower - h_) / size - 0.5F)));
-  const Index last = std::min<Index>(
-      cells_[axis] - 1, static_cast<Index>(std::ceil((from_lower + h_) / size - 0.5F)));
+  // Casts cut off, which from zero on is floor; one site too many is not near.
+  const Index first = std::max<Index>(0, static_cast<Index>((from_lower - h_) / size - 0.5F));
+  const Index last =
+      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_lower + h_) / size + 0.5F));
   for (Index k = first; k <= last; ++k) {
     add_if_near(box_.lower[axis] + (static_cast<Real>(k) + 0.5F) * size);
   }

@@ -30,12 +30,18 @@ class WallLattice {
       for (int b = 0; b < sites[1].size; ++b) {
         const Real yz2 = square(x[1] - sites[1].at[b]) + z2;
         if (!(yz2 < h2)) continue;
-        const bool inside = sites[2].inside(c) && sites[1].inside(b);
-        for (int a = 0; a < sites[0].size; ++a) {
-          if (inside && sites[0].inside(a)) continue;
-          if (square(x[0] - sites[0].at[a]) + yz2 < h2) {
-            f(Vec3{sites[0].at[a], sites[1].at[b], sites[2].at[c]});
+        const auto visit = [&](int first, int end) {
+          for (int a = first; a < end; ++a) {
+            if (square(x[0] - sites[0].at[a]) + yz2 < h2) {
+              f(Vec3{sites[0].at[a], sites[1].at[b], sites[2].at[c]});
+            }
           }
+        };
+        if (sites[2].inside(c) && sites[1].inside(b)) {
+          visit(0, sites[0].first_inside);
+          visit(sites[0].end_inside, sites[0].size);
+        } else {
+          visit(0, sites[0].size);
         }
       }
     }

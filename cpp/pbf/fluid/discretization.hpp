@@ -22,9 +22,6 @@ struct Discretization {
   /// closer to the wall than on the rest lattice, and the fluid would lose that volume.
   std::optional<Box> centers;
 
-  /// Collision detection and response: x moved to the nearest place that a particle can have.
-  [[nodiscard]] Vec3 project(const Vec3& x) const { return centers ? centers->project(x) : x; }
-
   /// Throws InvalidParameter if the parameters break a rule or the domain is thinner than a
   /// particle.
   explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});

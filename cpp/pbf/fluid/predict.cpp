@@ -2,6 +2,8 @@
 
 #include "pbf/core/parallel.hpp"
 
+#include <limits>
+
 namespace pbf {
 
 void predict(const Records& x,
@@ -14,18 +16,25 @@ void predict(const Records& x,
   x_star.resize(x.size());
   u.resize(x.size());
   const Vec3 dv = dt * disc.fluid.gravity;
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const Box centers = disc.centers.value_or(
+      Box{.lower = Vec3::Constant(-infinity), .upper = Vec3::Constant(infinity)});
   parallel_for(x.size(), threads, [&](Index i) {
-    const Vec3 x_i{x[i].x, x[i].y, x[i].z}, v_i{v[i].x, v[i].y, v[i].z};
-    const Vec3 u_i = dt * (v_i + dv);
-    const Vec3 moved = x_i + u_i;
-    const Vec3 allowed = disc.project(moved);
     // A wall leaves the way to it; elsewhere the difference of positions would bring in their
     // rounding.
-    const auto way = [&](int axis) {
-      return allowed[axis] == moved[axis] ? u_i[axis] : allowed[axis] - x_i[axis];
+    const auto move = [&](Real from, Real velocity, int axis, Real& to, Real& way) {
+      way = dt * (velocity + dv[axis]);
+      const Real moved = from + way;
+      to = centers.project(axis, moved);
+      if (to != moved) way = to - from;
     };
-    x_star[i] = {allowed[0], allowed[1], allowed[2], x[i].w};
-    u[i] = {way(0), way(1), way(2), 0};
+    const Record &x_i = x[i], &v_i = v[i];
+    Record to{.w = x_i.w}, way;
+    move(x_i.x, v_i.x, 0, to.x, way.x);
+    move(x_i.y, v_i.y, 1, to.y, way.y);
+    move(x_i.z, v_i.z, 2, to.z, way.z);
+    x_star[i] = to;
+    u[i] = way;
   });
 }
 

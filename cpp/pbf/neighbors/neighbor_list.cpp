@@ -97,12 +97,13 @@ void NeighborList::build_chunk(
   }
   std::uint32_t* out = chunk.reserve(static_cast<std::size_t>((slots + 3) * lanes));
   for (Index slice = 0; slice < last - first; slice += lanes) {
-    std::array<const std::uint32_t*, static_cast<std::size_t>(kMostLanes)> rows{};
-    std::array<std::uint32_t, static_cast<std::size_t>(kMostLanes)> lengths{};
-    for (Index lane = 0; lane < std::min(lanes, last - first - slice); ++lane) {
-      const auto i = static_cast<std::size_t>(slice + lane);
+    std::array<const std::uint32_t*, static_cast<std::size_t>(kMostLanes)> rows;
+    std::array<std::uint32_t, static_cast<std::size_t>(kMostLanes)> lengths;
+    for (Index lane = 0; lane < lanes; ++lane) {
+      const bool exists = slice + lane < last - first;
+      const auto i = static_cast<std::size_t>(exists ? slice + lane : 0);
       rows[static_cast<std::size_t>(lane)] = scratch.rows.data() + scratch.offsets[i];
-      lengths[static_cast<std::size_t>(lane)] = scratch.lengths[i];
+      lengths[static_cast<std::size_t>(lane)] = exists ? scratch.lengths[i] : 0;
     }
     const std::uint32_t length = longest(slice);
     loops.pack(rows.data(), lengths.data(), length, filler, out);
