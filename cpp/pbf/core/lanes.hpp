@@ -152,8 +152,8 @@ PBF_INLINE Columns transposed(const Columns& rows) {
 }
 #undef PBF_SHUFFLE
 
-/// Four numbers from each of f(first), f(first + 4), … side by side. (With instructions by name: put
-/// together from shuffles, GCC 12 does not let them read from memory.)
+/// Four numbers from each of f(first), f(first + 4), … side by side. (Instructions by name:
+/// put together from shuffles, GCC 12 does not let them read from memory.)
 template <class F>
 PBF_INLINE Lanes::Vector every_fourth([[maybe_unused]] int first, F&& f) {
 #if defined(__AVX512F__)
