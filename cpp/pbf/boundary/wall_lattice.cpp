@@ -30,9 +30,10 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
   sites.first_inside = sites.size;
   const Real size = cell_size_[axis];
   // Casts cut off, which from zero on is floor; one site too many is not near.
-  const Index first = std::max<Index>(0, static_cast<Index>((from_lower - h_) / size - 0.5F));
+  const Real half = size / 2;
+  const Index first = std::max<Index>(0, static_cast<Index>((from_lower - h_ - half) / size));
   const Index last =
-      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_lower + h_) / size + 0.5F));
+      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_lower + h_ + half) / size));
   for (Index k = first; k <= last; ++k) {
     add_if_near(box_.lower[axis] + (static_cast<Real>(k) + 0.5F) * size);
   }

@@ -41,19 +41,19 @@ class NeighborList {
 
 class NeighborList::Row {
  public:
-  class iterator {
+  class Iterator {
    public:
     using value_type = std::uint32_t;
     using difference_type = std::ptrdiff_t;
-    iterator() = default;
-    iterator(const std::uint32_t* entry, const Row* row) : entry_(entry), row_(row) {}
+    Iterator() = default;
+    Iterator(const std::uint32_t* entry, const Row* row) : entry_(entry), row_(row) {}
     std::uint32_t operator*() const { return *entry_ / 4; }
-    iterator& operator++() {
+    Iterator& operator++() {
       entry_ += row_->lanes_;
       return *this;
     }
-    iterator operator++(int) {
-      const iterator before = *this;
+    Iterator operator++(int) {
+      const Iterator before = *this;
       ++*this;
       return before;
     }
@@ -68,7 +68,7 @@ class NeighborList::Row {
   };
   Row(const std::uint32_t* begin, const std::uint32_t* end, int lanes, std::uint32_t filler)
       : begin_(begin), end_(end), lanes_(lanes), filler_(filler) {}
-  [[nodiscard]] iterator begin() const { return {begin_, this}; }
+  [[nodiscard]] Iterator begin() const { return {begin_, this}; }
   [[nodiscard]] static std::default_sentinel_t end() { return {}; }
   [[nodiscard]] Index size() const {
     Index count = 0;
