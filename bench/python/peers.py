@@ -22,7 +22,7 @@ GRAVITY = (0.0, -9.81, 0.0)
 
 @dataclass(frozen=True)
 class DamBreak:
-    """A cube of fluid about to fall over in a tank three times as long: bench/cpp/dam_break.hpp."""
+    """A cube of fluid about to fall over in a tank three times as long: bench/cpp/stages.cpp."""
 
     side: int = 39  # particles along an edge of the cube
     spacing: float = 0.02

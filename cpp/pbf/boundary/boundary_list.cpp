@@ -20,39 +20,28 @@ void BoundaryList::build_chunk(const WallLattice& walls,
                                Index first,
                                Index last) {
   thread_local std::vector<Vec3> sites;  // row after row
-  std::array<std::uint32_t, static_cast<std::size_t>(kChunk + kMostLanes + 1)> begins{};
+  std::array<std::uint32_t, static_cast<std::size_t>(kChunk)> lengths;
   sites.clear();
   for (Index i = first; i < last; ++i) {
+    const std::size_t before = sites.size();
     walls.for_each_near({x[i].x, x[i].y, x[i].z}, [&](const Vec3& q) { sites.push_back(q); });
-    begins[static_cast<std::size_t>(i - first + 1)] = static_cast<std::uint32_t>(sites.size());
+    lengths[static_cast<std::size_t>(i - first)] =
+        static_cast<std::uint32_t>(sites.size() - before);
   }
+  const Index lanes = rows_.lanes();
   const auto count = static_cast<std::size_t>(last - first);
-  std::fill(begins.begin() + static_cast<Index>(count) + 1, begins.end(), begins[count]);
-
-  auto& chunk = rows_.chunk(first);
-  const auto lanes = static_cast<std::size_t>(rows_.lanes());
-  std::uint32_t slots = 0;
-  for (std::size_t row = 0; row < count; row += lanes) {
-    std::uint32_t longest = 0;
-    for (std::size_t k = row; k < row + lanes; ++k)
-      longest = std::max(longest, begins[k + 1] - begins[k]);
-    slots += longest;
-    chunk.ends[row / lanes] = slots;
-  }
-  Real* out = chunk.reserve(3 * slots * lanes);
-  for (std::size_t row = 0; row < count; row += lanes) {
-    const std::size_t begin = row == 0 ? 0 : chunk.ends[row / lanes - 1];
-    Real* const end = out + 3 * lanes * (chunk.ends[row / lanes] - begin);
-    std::fill(out, end, Records::kFar);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      Real* at = out + lane;
-      for (std::size_t k = begins[row + lane]; k < begins[row + lane + 1]; ++k, at += 3 * lanes) {
-        at[0] = sites[k][0];
-        at[lanes] = sites[k][1];
-        at[2 * lanes] = sites[k][2];
-      }
+  const Index slots = rows_.lay_out(first, std::span(lengths).first(count));
+  Real* const out = rows_.chunk(first).reserve(static_cast<std::size_t>(3 * slots * lanes));
+  std::fill(out, out + 3 * slots * lanes, Records::kFar);
+  const Vec3* q = sites.data();
+  for (Index i = first; i < last; ++i) {
+    Real* at = out + 3 * lanes * Index{rows_.slots(i).begin} + i % lanes;
+    for (std::uint32_t k = 0; k < lengths[static_cast<std::size_t>(i - first)]; ++k, ++q) {
+      at[0] = (*q)[0];
+      at[lanes] = (*q)[1];
+      at[2 * lanes] = (*q)[2];
+      at += 3 * lanes;
     }
-    out = end;
   }
 }
 

@@ -16,7 +16,6 @@ class BoundaryList {
   /// @param lanes  particles in a slice
   void build(const std::optional<WallLattice>& walls, const Records& x, int lanes, int threads);
 
-  [[nodiscard]] Index size() const { return rows_.size(); }
   [[nodiscard]] std::size_t bytes() const { return rows_.bytes(); }
   [[nodiscard]] SliceView<Real> view(Index first) const { return rows_.view(first); }
   /// Positions of the boundary particles near i.

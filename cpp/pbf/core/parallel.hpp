@@ -43,17 +43,17 @@ void parallel_for(Index n, int threads, F&& f) {
 }
 
 /// f(0) + f(1) + …, added in chunks of fixed size and the chunks in order: the same bits for any
-/// number of threads.
-template <class F>
-double parallel_sum(Index n, int threads, F&& f) {
-  std::vector<double> partial(static_cast<std::size_t>((n + kChunk - 1) / kChunk), 0.0);
+/// number of threads. Sum starts as Sum{} and is added to with +=, whatever adding means to it.
+template <class Sum = double, class F>
+Sum parallel_sum(Index n, int threads, F&& f) {
+  std::vector<Sum> partial(static_cast<std::size_t>((n + kChunk - 1) / kChunk));
   parallel_chunks(n, threads, kChunk, [&](Index first, Index last) {
-    double sum = 0.0;
+    Sum sum{};
     for (Index i = first; i < last; ++i) sum += f(i);
     partial[static_cast<std::size_t>(first / kChunk)] = sum;
   });
-  double total = 0.0;
-  for (const double p : partial) total += p;
+  Sum total{};
+  for (const Sum& p : partial) total += p;
   return total;
 }
 

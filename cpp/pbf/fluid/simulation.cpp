@@ -182,28 +182,21 @@ void Simulation::sort_by_cell() {
 void Simulation::measure(StepReport& report) {
   const Index n = size();
   if (n == 0) return;
-  struct Part {
+  struct Errors {
     double sum = 0, max = 0;
     Index broken = 0;
-  };
-  std::vector<Part> parts(static_cast<std::size_t>((n + kChunk - 1) / kChunk));
-  parallel_chunks(n, solver_.num_threads, kChunk, [&](Index first, Index last) {
-    Part part;
-    for (Index i = first; i < last; ++i) {
-      const Record &x = x_star_[i], &v = v_new_[i];
-      part.broken += std::isfinite(x.x + x.y + x.z + v.x + v.y + v.z + v.w) ? 0 : 1;
-      const auto error = static_cast<double>(std::max(v.w - 1, Real(0)));
-      part.sum += error;
-      part.max = std::max(part.max, error);
+    Errors& operator+=(const Errors& other) {
+      sum += other.sum;
+      max = std::max(max, other.max);
+      broken += other.broken;
+      return *this;
     }
-    parts[static_cast<std::size_t>(first / kChunk)] = part;
+  };
+  const auto total = parallel_sum<Errors>(n, solver_.num_threads, [&](Index i) {
+    const Record &x = x_star_[i], &v = v_new_[i];
+    const auto error = static_cast<double>(std::max(v.w - 1, Real(0)));
+    return Errors{error, error, std::isfinite(x.x + x.y + x.z + v.x + v.y + v.z + v.w) ? 0 : 1};
   });
-  Part total;
-  for (const Part& part : parts) {
-    total.sum += part.sum;
-    total.max = std::max(total.max, part.max);
-    total.broken += part.broken;
-  }
   if (total.broken > 0) {
     throw SimulationFailed(
         "step " + std::to_string(step_count_ + 1) + ": " + std::to_string(total.broken) +

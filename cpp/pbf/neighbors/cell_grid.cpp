@@ -19,33 +19,27 @@ constexpr Index kBlock = 1 << 14;
 struct Bounds {
   Eigen::Array3d lower = Eigen::Array3d::Constant(std::numeric_limits<double>::max());
   Eigen::Array3d upper = Eigen::Array3d::Constant(std::numeric_limits<double>::lowest());
+
+  Bounds& operator+=(const Bounds& other) {
+    lower = lower.min(other.lower);
+    upper = upper.max(other.upper);
+    return *this;
+  }
 };
 
 Eigen::Array3d coordinates(const Record& x) { return {x.x, x.y, x.z}; }
 
 Bounds bounds_of(const Records& x, double farthest, int threads) {
-  std::vector<Bounds> parts(static_cast<std::size_t>((x.size() + kBlock - 1) / kBlock));
-  parallel_chunks(x.size(), threads, kBlock, [&](Index first, Index last) {
-    Bounds bounds;
-    for (Index i = first; i < last; ++i) {
-      const Eigen::Array3d p = coordinates(x[i]);
-      if (!(p.abs() <= farthest).all()) {  // false for NaN as well
-        throw SimulationFailed(
-            "particle positions: (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " +
-            std::to_string(p[2]) + ") m is not within " + std::to_string(farthest) +
-            " m (2^20 support radii) of the origin; use a smaller time step or a domain");
-      }
-      bounds.lower = bounds.lower.min(p);
-      bounds.upper = bounds.upper.max(p);
+  return parallel_sum<Bounds>(x.size(), threads, [&](Index i) {
+    const Eigen::Array3d p = coordinates(x[i]);
+    if (!(p.abs() <= farthest).all()) {  // false for NaN as well
+      throw SimulationFailed(
+          "particle positions: (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " +
+          std::to_string(p[2]) + ") m is not within " + std::to_string(farthest) +
+          " m (2^20 support radii) of the origin; use a smaller time step or a domain");
     }
-    parts[static_cast<std::size_t>(first / kBlock)] = bounds;
+    return Bounds{p, p};
   });
-  Bounds bounds;
-  for (const Bounds& part : parts) {
-    bounds.lower = bounds.lower.min(part.lower);
-    bounds.upper = bounds.upper.max(part.upper);
-  }
-  return bounds;
 }
 
 }  // namespace

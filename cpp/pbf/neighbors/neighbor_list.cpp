@@ -84,18 +84,10 @@ void NeighborList::build_chunk(
       });
 
   // Rows side by side, slice by slice.
-  auto& chunk = rows_.chunk(first);
+  const auto count = static_cast<std::size_t>(last - first);
+  const std::uint32_t slots = rows_.lay_out(first, std::span(scratch.lengths).first(count));
   const auto lanes = static_cast<Index>(loops.lanes);
-  std::uint32_t slots = 0;
-  const auto longest = [&](Index slice) {
-    const auto* lengths = scratch.lengths.data() + slice;
-    return *std::max_element(lengths, lengths + std::min(lanes, last - first - slice));
-  };
-  for (Index slice = 0; slice < last - first; slice += lanes) {
-    slots += longest(slice);
-    chunk.ends[static_cast<std::size_t>(slice / lanes)] = slots;
-  }
-  std::uint32_t* out = chunk.reserve(static_cast<std::size_t>((slots + 3) * lanes));
+  std::uint32_t* out = rows_.chunk(first).reserve(static_cast<std::size_t>((slots + 3) * lanes));
   for (Index slice = 0; slice < last - first; slice += lanes) {
     std::array<const std::uint32_t*, static_cast<std::size_t>(kMostLanes)> rows;
     std::array<std::uint32_t, static_cast<std::size_t>(kMostLanes)> lengths;
@@ -105,9 +97,9 @@ void NeighborList::build_chunk(
       rows[static_cast<std::size_t>(lane)] = scratch.rows.data() + scratch.offsets[i];
       lengths[static_cast<std::size_t>(lane)] = exists ? scratch.lengths[i] : 0;
     }
-    const std::uint32_t length = longest(slice);
-    loops.pack(rows.data(), lengths.data(), length, filler, out);
-    out += static_cast<Index>(length) * lanes;
+    const auto [begin, end] = rows_.slots(first + slice);
+    loops.pack(rows.data(), lengths.data(), end - begin, filler, out);
+    out += static_cast<Index>(end - begin) * lanes;
   }
 }
 

@@ -10,14 +10,11 @@ PBF_FOR_EACH_ISA(PBF_DECLARE)
 #undef PBF_DECLARE
 
 const Scan& scan(Isa isa) {
-  switch (isa) {
-#define PBF_CASE(isa) \
-  case Isa::isa:      \
-    return isa::scan();
-    PBF_FOR_EACH_ISA(PBF_CASE)
-#undef PBF_CASE
-  }
-  return scan(usable_isas().front());
+  using FindTable = const Scan& (*)();
+#define PBF_TABLE(isa) isa::scan,
+  static constexpr FindTable tables[] = {PBF_FOR_EACH_ISA(PBF_TABLE)};
+#undef PBF_TABLE
+  return tables[static_cast<std::size_t>(isa)]();
 }
 
 }  // namespace pbf

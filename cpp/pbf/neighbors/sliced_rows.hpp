@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace pbf {
@@ -41,6 +42,19 @@ class SlicedRows {
     n_ = n;
     lanes_ = lanes;
     chunks_.resize(static_cast<std::size_t>((n + kChunk - 1) / kChunk));
+  }
+  /// Lays out the slices of the chunk that starts at particle `first`, from the lengths of its
+  /// rows; returns its number of slots.
+  std::uint32_t lay_out(Index first, std::span<const std::uint32_t> lengths) {
+    auto end = chunk(first).ends.begin();
+    std::uint32_t slots = 0;
+    for (auto rest = lengths; !rest.empty(); ++end) {
+      const auto slice = rest.first(std::min(rest.size(), static_cast<std::size_t>(lanes_)));
+      slots += *std::max_element(slice.begin(), slice.end());
+      *end = slots;
+      rest = rest.subspan(slice.size());
+    }
+    return slots;
   }
   [[nodiscard]] Index size() const { return n_; }
   [[nodiscard]] int lanes() const { return lanes_; }
