@@ -12,6 +12,7 @@ add_library(pbf_render STATIC
   pbf/gl/draw.cpp
   pbf/render/camera.cpp
   pbf/render/params.cpp
+  pbf/render/crowding.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -26,7 +27,7 @@ add_library(pbf_render STATIC
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core
-  PRIVATE ${CMAKE_DL_LIBS} $<BUILD_INTERFACE:pbf_warnings>)
+  PRIVATE ${CMAKE_DL_LIBS} OpenMP::OpenMP_CXX $<BUILD_INTERFACE:pbf_warnings>)
 pbf_embed_glsl(pbf_render
   frame.glsl
   sprite.vert

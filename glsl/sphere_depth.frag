@@ -1,20 +1,21 @@
-// sphere_depth.frag: in: sphere. Out: affine depth of its front, for MAX blending. With THICKNESS
+// sphere_depth.frag: in: sphere. Out: affine depth of its front with its crowding, for MAX
+// blending. With THICKNESS
 // also the thickness, for ADD blending: the pass of both where a driver blends each target in its
 // own way (OpenGL 4.0).
-flat in vec3 v_center;   // eye space [m]
-uniform float u_radius;  // [m]
+flat in vec4 v_sphere;  // center in eye space and radius [m]
+flat in float v_crowding;
 layout(location = 0) out float o_depth;
 #ifdef THICKNESS
-uniform float u_volume_share;  // particle's volume / sprite's volume
+flat in float v_share;  // particle's volume / sphere's volume
 layout(location = 1) out float o_thickness;  // [m]
 #endif
 
 void main() {
-  Hit hit = hit_sphere(gl_FragCoord.xy, v_center, u_radius);
+  Hit hit = hit_sphere(gl_FragCoord.xy, v_sphere.xyz, v_sphere.w);
   bool seen = hit.chord > 0.0 && hit.front >= u_lens.z;
   // No discard: neutral values of the blending cost less.
-  o_depth = seen ? affine_depth(hit.front) : NOTHING;
+  o_depth = seen ? with_crowding(affine_depth(hit.front), v_crowding) : NOTHING;
 #ifdef THICKNESS
-  o_thickness = max(hit.chord, 0.0) * u_volume_share;
+  o_thickness = max(hit.chord, 0.0) * v_share;
 #endif
 }

@@ -20,7 +20,7 @@ MAY_INCLUDE: dict[str, set[str]] = {
     "fluid": SIMULATION_BASE | {"boundary"},
     "scene": SIMULATION_BASE | {"boundary", "fluid"},
     "gl": {"core"},
-    "render": {"core", "gl"},
+    "render": {"core", "neighbors", "gl"},
 }
 
 # (pattern, files of cpp/pbf that may hold it, why nobody else may)

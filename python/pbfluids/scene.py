@@ -229,10 +229,16 @@ class Scene:
     def render_params(self) -> _core.RenderParams:
         """How the fluid is drawn; sizes follow from its spacing, the tank from the domain."""
         spacing, domain = self.fluid.spacing, self._tables["domain"]
-        derived = {"radius": 1.2 * spacing, "particle_volume": spacing**3}
+        given = self._given("render")
+        radius = given.get("radius", 1.2 * spacing)
+        derived = {
+            "radius": radius,
+            "drop_radius": min(0.62 * spacing, radius),
+            "particle_volume": spacing**3,
+        }
         if domain:
             derived |= {"tank_lower": domain["lower"], "tank_upper": domain["upper"]}
-        return _core.RenderParams(**{**derived, **self._given("render")})
+        return _core.RenderParams(**{**derived, **given})
 
     def particles(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
         """Positions and velocities at the start, each of shape (n, 3), float32 [m], [m/s]."""

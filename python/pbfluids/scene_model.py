@@ -41,6 +41,7 @@ DERIVED: dict[str, dict[str, str]] = {
     },
     "render": {
         "radius": "1.2 times the fluid's spacing.",
+        "drop_radius": "0.62 times the fluid's spacing.",
         "particle_volume": "the cube of the fluid's spacing.",
         "tank_lower": "the domain's.",
         "tank_upper": "the domain's.",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pbf/core/records.hpp"
 #include "pbf/gl/egl_context.hpp"
 #include "pbf/gl/framebuffer.hpp"
 #include "pbf/render/frame_block.hpp"
@@ -13,6 +14,15 @@
 #include <vector>
 
 namespace pbf::test {
+
+/// Particles of a body of fluid, or as crowded as said.
+inline Records particles(const Points& positions, Real crowding = 1) {
+  Records records(positions.cols());
+  for (Index i = 0; i < positions.cols(); ++i) {
+    records[i] = {positions(0, i), positions(1, i), positions(2, i), crowding};
+  }
+  return records;
+}
 
 /// A current context and the camera's uniform block, for passes that are called by hand.
 class GlFixture {

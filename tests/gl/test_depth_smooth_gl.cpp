@@ -1,6 +1,7 @@
 #include "pbf/render/passes/depth_smooth.hpp"
 
 #include "gl_fixture.hpp"
+#include <bit>
 #include <cmath>
 
 using namespace pbf;
@@ -16,11 +17,18 @@ RenderParams params_for(Smoothing smoothing, Real radius = 0.2F, Real range = 0.
   return params;
 }
 
-std::vector<float> smooth(const GlFixture& gl, const Texture& depth, const RenderParams& params) {
+/// @param level  of the depth's last bits: 0 in a body of fluid, 3 for a drop (glsl/frame.glsl)
+std::vector<float> smooth(const GlFixture& gl,
+                          const Texture& depth,
+                          const RenderParams& params,
+                          std::uint32_t level = 0) {
   const DepthSmooth pass(glsl_source);
+  const float tagged = std::bit_cast<float>(std::bit_cast<std::uint32_t>(1.0F) | level);
+  const Texture spheres = gl.texture([&](int, int) { return tagged; });
   const Texture between(gl.width(), gl.height(), Format::r32f);
   const Texture result(gl.width(), gl.height(), Format::r32f);
-  pass(gl.tiles(), depth, params, Framebuffer({&between}), between, Framebuffer({&result}));
+  pass(gl.tiles(), depth, spheres, params, Framebuffer({&between}), between,
+       Framebuffer({&result}));
   return gl.read(result);
 }
 
@@ -130,4 +138,19 @@ TEST_CASE("depth_smooth: the kernel shrinks with distance as things do") {
   };
   CHECK(peak(64, 48, 2) == doctest::Approx(peak(128, 96, 4)).epsilon(0.3));
   CHECK(peak(128, 96, 2) == doctest::Approx(peak(256, 192, 4)).epsilon(0.05));
+}
+
+TEST_CASE("depth_smooth: a drop stays as round as it is, a small group is smoothed a little") {
+  const GlFixture gl;
+  const Texture bump = gl.texture([](int x, int y) {
+    return 1 / (kHere - 0.05 * std::exp(-0.02 * ((x - 32) * (x - 32) + (y - 24) * (y - 24))));
+  });
+  const RenderParams params = params_for(Smoothing::bilateral, 0.3F, 0.4F);
+  CHECK(smooth(gl, bump, params, 3) == gl.read(bump));
+  double last = 1 / gl.read(bump)[gl.at(32, 24)];  // depth of the peak
+  for (const std::uint32_t level : {2U, 1U, 0U}) {
+    const double peak = 1 / smooth(gl, bump, params, level)[gl.at(32, 24)];
+    CHECK(peak > last + 1e-4);
+    last = peak;
+  }
 }

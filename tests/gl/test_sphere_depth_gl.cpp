@@ -1,5 +1,7 @@
 #include "gl_fixture.hpp"
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 using namespace pbf;
 using namespace pbf::test;
@@ -14,7 +16,7 @@ TEST_CASE("sphere_depth: the front of spheres on and off the axis, at any field 
     centers.col(0) = Vec3(0, 0, -3);
     centers.col(1) = Vec3(3.3F * reach, 2.4F * reach, -3.2F);
     Sprites sprites;
-    sprites.upload(centers);
+    sprites.upload(particles(centers));
     RenderParams params;
     params.radius = 0.4F * reach;
     const Texture depth(gl.width(), gl.height(), Format::r32f);
@@ -47,5 +49,33 @@ TEST_CASE("sphere_depth: the front of spheres on and off the axis, at any field 
     }
     CAPTURE(fov);
     CHECK(seen > 300);
+  }
+}
+
+TEST_CASE("sphere_depth: a drop has its own radius, and its depth says that it is one") {
+  const GlFixture gl(160, 120);
+  RenderParams params;
+  params.radius = 0.4F;
+  params.drop_radius = 0.1F;
+  for (const int level : {0, 1, 2, 3}) {
+    const Real crowding = 1 - static_cast<Real>(level) / 3;
+    Sprites sprites;
+    sprites.upload(particles(Points(Vec3(0, 0, -2)), crowding));
+    const Texture depth(gl.width(), gl.height(), Format::r32f);
+    const SphereDepth pass(glsl_source, false);
+    pass(sprites, params, Framebuffer({&depth}));
+    const std::vector<float> result = gl.read(depth);
+    const double radius = 0.1 + 0.3 * crowding;
+    std::size_t covered = 0;
+    for (const float a : result) {
+      if (a == kNothing) continue;
+      ++covered;
+      CHECK((std::bit_cast<std::uint32_t>(a) & 3U) == static_cast<std::uint32_t>(level));
+    }
+    CAPTURE(level);
+    const double pixel = gl.slope_x(81) - gl.slope_x(80);
+    const double disc = std::numbers::pi * radius * radius / (4 - radius * radius);
+    CHECK(static_cast<double>(covered) * pixel * pixel == doctest::Approx(disc).epsilon(0.03));
+    CHECK(1 / result[gl.at(80, 60)] == doctest::Approx(2 - radius).epsilon(1e-3));
   }
 }

@@ -18,7 +18,7 @@ TEST_CASE("thickness: summed over a parallel view it is the fluid's volume, what
              -1.0F - 0.02F * static_cast<Real>(i));
   }
   Sprites sprites;
-  sprites.upload(centers);
+  sprites.upload(particles(centers));
   const double pixel_area = 1.0 / (256.0 * 256.0);
   for (const Real scale : {1.0F, 2.0F, 3.0F}) {
     RenderParams params;
@@ -38,7 +38,7 @@ TEST_CASE("thickness: alone and together with the depth it is the same") {
   const GlFixture gl;
   REQUIRE(gl.context().has_version(4, 0));
   Sprites sprites;
-  sprites.upload(Points(Vec3(0.2F, 0.1F, -2.0F)));
+  sprites.upload(particles(Points(Vec3(0.2F, 0.1F, -2.0F))));
   RenderParams params;
   params.radius = 0.3F;
   const Texture alone(gl.width(), gl.height(), Format::r32f);

@@ -220,7 +220,7 @@ def test_a_report_counts_particles_and_times_passes_when_asked(renderer):
         timed.render([[0, 0, -1]], camera)
         passes = list(timed.report["milliseconds"])
     assert passes == [
-        *("upload", "sphere_depth", "depth_smooth", "thickness_smooth"),
+        *("crowding", "upload", "sphere_depth", "depth_smooth", "thickness_smooth"),
         *("normal", "composite", "read_back"),
     ]
     assert "OpenGL" in renderer.description

@@ -11,11 +11,11 @@ void Buffer::upload(const void* data, GLsizeiptr bytes) const {
   glBufferData(target_, bytes, data, GL_STREAM_DRAW);
 }
 
-void VertexArray::point_instances(const Buffer& points, GLuint attribute) const {
+void VertexArray::instances(const Buffer& vectors, GLint components, GLuint attribute) const {
   bind();
-  points.bind();
+  vectors.bind();
   glEnableVertexAttribArray(attribute);
-  glVertexAttribPointer(attribute, 3, GL_FLOAT, 0, 0, nullptr);
+  glVertexAttribPointer(attribute, components, GL_FLOAT, 0, 0, nullptr);
   glVertexAttribDivisor(attribute, 1);
 }
 

@@ -18,11 +18,11 @@ class Buffer {
   GlHandle<BufferKind> handle_;
 };
 
-/// How vertices are fetched: nothing, or one vec3 per instance from a buffer.
+/// How vertices are fetched: nothing, or one vector per instance from a buffer.
 class VertexArray {
  public:
   VertexArray() = default;
-  void point_instances(const Buffer& points, GLuint attribute) const;
+  void instances(const Buffer& vectors, GLint components, GLuint attribute) const;
   void bind() const { glBindVertexArray(handle_.name()); }
 
  private:

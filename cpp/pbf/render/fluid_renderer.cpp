@@ -1,5 +1,6 @@
 #include "pbf/render/fluid_renderer.hpp"
 
+#include "pbf/render/crowding.hpp"
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/passes/composite.hpp"
@@ -58,6 +59,7 @@ struct FluidRenderer::Passes {
       : sphere_depth(glsl_source, one_pass),
         thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
+  Crowding crowding;
   Sprites sprites;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
@@ -135,11 +137,14 @@ Surface FluidRenderer::draw(const PointsView& positions,
   Passes& pass = *passes_;
   Targets& to = *targets_;
   report_ = {.particles = positions.cols(), .milliseconds = {}};
+  stage("crowding", [&] {
+    pass.crowding.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0);
+  });
   stage("upload", [&] {
     const FrameBlock frame = frame_block(camera, width_, height_);
     pass.frame.upload(&frame, sizeof frame);
     pass.frame.bind_base(0);
-    pass.sprites.upload(positions);
+    pass.sprites.upload(pass.crowding.particles());
     to.tiles.find(positions, camera, params.radius);
   });
   if (pass.thickness == nullptr) {
@@ -151,8 +156,8 @@ Surface FluidRenderer::draw(const PointsView& positions,
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
     for (int k = 0; k < params.smoothing_iterations; ++k) {
-      pass.depth_smooth(to.tiles, *depth, params, to.between.framebuffer, to.between.texture,
-                        to.depth_smooth.framebuffer);
+      pass.depth_smooth(to.tiles, *depth, to.depth.texture, params, to.between.framebuffer,
+                        to.between.texture, to.depth_smooth.framebuffer);
       depth = &to.depth_smooth.texture;
     }
   });

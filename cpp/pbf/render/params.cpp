@@ -10,6 +10,9 @@ Real RenderParams::volume_in_force() const {
 }
 
 void RenderParams::check_together(Faults& faults) const {
+  if (drop_radius && *drop_radius > radius) {
+    faults.add("drop_radius", *drop_radius, "m", "must not exceed radius = " + to_text(radius));
+  }
   if (!(up.norm() > 0)) faults.add("up", up, "", "must not be zero; (0, 1, 0) if y points up");
   if (!(sun_direction.norm() > 0)) {
     faults.add("sun_direction", sun_direction, "", "must not be zero; it points towards the sun");

@@ -477,6 +477,7 @@ class RenderParams:
         self,
         *,
         radius: float = ...,
+        drop_radius: float | None = ...,
         particle_volume: float | None = ...,
         smoothing: str = ...,
         smoothing_radius: float | None = ...,
@@ -543,6 +544,13 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
+    @property
+    def drop_radius(self) -> float | None:
+        """
+        Radius of the sprite of a particle that is alone; at most radius, which it is if not given. With 0.62 times the particle distance a drop has its particle's volume. Small groups of particles lie between. The depth filter leaves drops round.
+        """
+    @drop_radius.setter
+    def drop_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
     def exposure(self) -> float:
         """

@@ -12,6 +12,7 @@ DepthSmooth::DepthSmooth(const GlslSource& source)
 
 void DepthSmooth::operator()(const FluidTiles& tiles,
                              const Texture& depth,
+                             const Texture& spheres,
                              const RenderParams& params,
                              const Framebuffer& between,
                              const Texture& between_texture,
@@ -22,6 +23,8 @@ void DepthSmooth::operator()(const FluidTiles& tiles,
   program_.set("u_gaussian", params.smoothing == Smoothing::gaussian ? 1 : 0);
   program_.set("u_radius", params.smoothing_radius_in_force());
   program_.set("u_range", params.smoothing_range_in_force());
+  program_.set("u_spheres", 1);
+  spheres.bind(1);
   depth.bind(0);
   between.clear(0, {kNothing, 0, 0, 0});
   program_.set("u_axis", 1, 0);

@@ -12,10 +12,12 @@ namespace pbf {
 class DepthSmooth {
  public:
   explicit DepthSmooth(const GlslSource& source);
-  /// One iteration. @param between, out  r32f targets; `between_texture` is what `between` draws
+  /// One iteration. @param spheres  affine depth with crowding, of SphereDepth
+  /// @param between, out  r32f targets; `between_texture` is what `between` draws
   /// into.
   void operator()(const FluidTiles& tiles,
                   const Texture& depth,
+                  const Texture& spheres,
                   const RenderParams& params,
                   const Framebuffer& between,
                   const Texture& between_texture,

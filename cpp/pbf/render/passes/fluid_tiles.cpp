@@ -30,7 +30,7 @@ FluidTiles::FluidTiles(int width, int height)
       columns_((width + kSide - 1) / kSide),
       rows_((height + kSide - 1) / kSide),
       buffer_(GL_ARRAY_BUFFER) {
-  array_.point_instances(buffer_, 0);
+  array_.instances(buffer_, 3, 0);
 }
 
 void FluidTiles::mark(int x0, int x1, int y0, int y1) {

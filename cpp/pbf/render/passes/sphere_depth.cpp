@@ -2,12 +2,6 @@
 
 namespace pbf {
 
-float volume_share(const RenderParams& params) {
-  RenderParams sprite = params;
-  sprite.particle_volume.reset();
-  return params.volume_in_force() / sprite.volume_in_force();
-}
-
 SphereDepth::SphereDepth(const GlslSource& source, bool with_thickness)
     : program_(source,
                {.vertex = {"frame.glsl", "sprite.vert"},
@@ -22,8 +16,7 @@ void SphereDepth::operator()(const Sprites& sprites,
   out.clear(0, {kNothing, 0, 0, 0});
   if (with_thickness_) out.clear(1, {0, 0, 0, 0});
   program_.use();
-  program_.set("u_radius", params.radius);
-  if (with_thickness_) program_.set("u_volume_share", volume_share(params));
+  Sprites::set(program_, params);
   sprites.draw(with_thickness_ ? Blend::max_and_add : Blend::max);
 }
 

@@ -8,10 +8,10 @@
 namespace pbf {
 
 /// Front of the nearest sphere at each pixel, exactly where the viewing ray enters it, as affine
-/// depth (glsl/frame.glsl). MAX blending takes the nearest: without a depth buffer that is a third
-/// faster in a software rasterizer than gl_FragDepth. Where each target can blend in its own way
-/// (OpenGL 4.0) the thickness comes along in a second target: hitting each sphere once is cheaper
-/// than twice.
+/// depth with the sphere's crowding (glsl/frame.glsl). MAX blending takes the nearest: without a
+/// depth buffer that is a third faster in a software rasterizer than gl_FragDepth. Where each
+/// target can blend in its own way (OpenGL 4.0) the thickness comes along in a second target:
+/// hitting each sphere once is cheaper than twice.
 class SphereDepth {
  public:
   explicit SphereDepth(const GlslSource& source, bool with_thickness);
@@ -26,9 +26,5 @@ class SphereDepth {
 
 /// Affine depth where there is no fluid, as in glsl/frame.glsl.
 inline constexpr float kNothing = -1e30F;
-
-/// What a sprite's chord is multiplied by so that all chords together hold the particle's volume:
-///   V / (4/3 π R³)
-float volume_share(const RenderParams& params);
 
 }  // namespace pbf

@@ -2,9 +2,15 @@
 
 namespace pbf {
 
-void Sprites::upload(const PointsView& positions) {
-  count_ = static_cast<GLsizei>(positions.cols());
-  buffer_.upload(positions.data(), static_cast<GLsizeiptr>(positions.size() * sizeof(Real)));
+void Sprites::upload(const Records& particles) {
+  count_ = static_cast<GLsizei>(particles.size());
+  buffer_.upload(particles.data(), count_ * static_cast<GLsizeiptr>(sizeof(Record)));
+}
+
+void Sprites::set(const Program& program, const RenderParams& params) {
+  program.set("u_radius", params.radius);
+  program.set("u_drop_radius", params.drop_radius_in_force());
+  program.set("u_volume", params.volume_in_force());
 }
 
 void Sprites::draw(Blend blend) const {

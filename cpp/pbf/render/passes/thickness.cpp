@@ -1,7 +1,5 @@
 #include "pbf/render/passes/thickness.hpp"
 
-#include "pbf/render/passes/sphere_depth.hpp"
-
 namespace pbf {
 
 Thickness::Thickness(const GlslSource& source)
@@ -15,8 +13,7 @@ void Thickness::operator()(const Sprites& sprites,
                            const Framebuffer& out) const {
   out.clear(0, {0, 0, 0, 0});
   program_.use();
-  program_.set("u_radius", params.radius);
-  program_.set("u_volume_share", volume_share(params));
+  Sprites::set(program_, params);
   sprites.draw(Blend::add);
 }
 
