@@ -141,18 +141,30 @@ void assign_named(P& params, const std::string& name, py::handle value) {
           std::string(P::kName) + " has no parameter \"" + name + "\"; it has " + known);
 }
 
+/// T itself, or what it may hold.
+template <class T>
+struct Unwrapped {
+  using type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+  using type = T;
+};
+
 template <class P, class T>
 py::dict describe_field(const Field<P, T>& field) {
   py::list choices;
-  if constexpr (std::is_enum_v<T>) {
-    for (const char* name : Choices<T>::names) choices.append(name);
+  using Value = typename Unwrapped<T>::type;
+  if constexpr (std::is_enum_v<Value>) {
+    for (const char* name : Choices<Value>::names) choices.append(name);
   }
+  static const P defaults;
   return py::dict("name"_a = field.name, "kind"_a = PythonForm<T>::kind,
                   "optional"_a = is_optional<T>::value, "unit"_a = field.unit,
                   "least"_a = field.range.least, "most"_a = field.range.most,
                   "least_excluded"_a = field.range.least_excluded,
                   "most_excluded"_a = field.range.most_excluded, "finite"_a = field.range.finite,
-                  "default"_a = PythonForm<T>::out(P{}.*field.member), "doc"_a = field.doc,
+                  "default"_a = PythonForm<T>::out(defaults.*field.member), "doc"_a = field.doc,
                   "choices"_a = choices);
 }
 

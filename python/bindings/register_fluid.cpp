@@ -104,6 +104,10 @@ void bind_simulation(py::module_& m) {
            [](SharedSimulation& self) {
              return scalars_to_numpy(self.with([](Simulation& s) { return s.multipliers(); }));
            })
+      .def("pressures",
+           [](SharedSimulation& self) {
+             return scalars_to_numpy(self.with([](Simulation& s) { return s.pressures(); }));
+           })
       .def("ids",
            [](SharedSimulation& self) {
              Ids ids = self.with([](Simulation& s) { return s.ids(); });

@@ -95,7 +95,7 @@ def _table_of(section: str) -> type[Table]:
             kind = kind | None
         if not field["finite"]:
             kind = Annotated[kind, BeforeValidator(_infinity)]
-            default = str(default) if math.isinf(default) else default
+            default = str(default) if default in (math.inf, -math.inf) else default
         fields[name] = (
             kind,
             Field(

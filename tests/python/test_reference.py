@@ -16,7 +16,7 @@ from reference.samples import bulk, jittered_block, lattice_block
 
 Array = NDArray[np.float64]
 
-KERNELS = ["poly6_spiky", "cubic_spline"]
+KERNELS = ["poly6_spiky", "cubic_spline", "wendland"]
 D = 0.1  # spacing [m] of the particle sets below
 OPEN_SOLVER = ref.Solver(relaxation=0.0)
 

@@ -80,7 +80,10 @@ def test_an_unknown_key_comes_with_the_name_that_was_meant(tiny, table, key, fau
         ({"duration": math.inf}, "duration = Infinity: must be finite"),
         ({"frame_rate": True}, "frame_rate = true: must be a number"),
         ({"fluid": 3}, "fluid = 3: must be a table"),
-        ({"fluid": {"kernel": "gauss"}}, "fluid.kernel = \"gauss\": must be 'poly6_spiky' or"),
+        (
+            {"fluid": {"kernel": "gauss"}},
+            "fluid.kernel = \"gauss\": must be 'poly6_spiky', 'cubic_spline' or",
+        ),
         ({"fluid": {"gravity": [0, 1]}}, "fluid.gravity = [0, 1]: must have 3 numbers"),
         ({"solver": {"substeps": 10**30}}, "solver.substeps = 1000000000"),
         ({"solver": {"substeps": 0}}, "solver.substeps = 0: must be finite, >= 1"),

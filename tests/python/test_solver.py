@@ -106,7 +106,7 @@ def test_a_rigidly_rotating_ball_has_the_vorticity_two_omega_inside() -> None:
     v = np.cross(rate, ball)
     inside = np.linalg.norm(ball, axis=1) < 6 * D - H - D / 2
     assert inside.sum() > 100
-    for kernel in ("poly6_spiky", "cubic_spline"):
+    for kernel in ("poly6_spiky", "cubic_spline", "wendland"):
         fluid = WEIGHTLESS.replace(kernel=kernel)
         volume, _ = stages.calibration(fluid)
         lattice = ref.lattice(float(np.float32(D)), 2 * H)
@@ -140,7 +140,7 @@ def test_no_particle_leaves_the_box_however_hard_it_is_thrown() -> None:
 def test_a_block_on_the_lattice_has_its_rest_density_up_to_the_walls() -> None:
     """Boundary particles continue the lattice: faces, edges and corners, floor to rim."""
     box = pbf.Box((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))
-    for kernel in ("poly6_spiky", "cubic_spline"):
+    for kernel in ("poly6_spiky", "cubic_spline", "wendland"):
         simulation = pbf.Simulation(pbf.FluidParams(spacing=D, kernel=kernel), domain=box)
         simulation.add_particles(pbf.block(box.lower, box.upper, spacing=D))
         np.testing.assert_allclose(simulation.densities, 1000.0, rtol=16 * EPS)
@@ -210,7 +210,7 @@ def test_a_frame_is_its_substeps() -> None:
         steps.step(1 / 64 / frame.solver.substeps)
     assert frame.state_hash() == steps.state_hash()
     assert report.steps == frame.solver.substeps
-    assert report.iterations == frame.solver.substeps * frame.solver.iterations
+    assert report.iterations >= frame.solver.substeps * frame.solver.min_iterations
 
 
 def test_the_hash_knows_every_part_of_the_state() -> None:

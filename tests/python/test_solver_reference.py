@@ -59,7 +59,7 @@ def assert_same(simulation: pbf.Simulation, state: ref.State, start: NDArray[np.
     np.testing.assert_allclose(scaled, expected, rtol=0, atol=1e-5)
 
 
-@pytest.mark.parametrize("kernel", ["poly6_spiky", "cubic_spline"])
+@pytest.mark.parametrize("kernel", ["poly6_spiky", "cubic_spline", "wendland"])
 def test_twenty_steps_of_a_dam_break_agree(kernel: str) -> None:
     """All terms on, against five walls; the block starts jittered and falls at 1 m/s."""
     fluid = pbf.FluidParams(spacing=D, kernel=kernel)

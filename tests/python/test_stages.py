@@ -33,7 +33,7 @@ FLUIDS = {
     f"{kernel} h={h_over_d}d": pbf.FluidParams(
         spacing=D, support_radius=None if h_over_d == 2.0 else h_over_d * D, kernel=kernel
     )
-    for kernel in ("poly6_spiky", "cubic_spline")
+    for kernel in ("poly6_spiky", "cubic_spline", "wendland")
     for h_over_d in (1.5, 2.0, 2.5)
 }
 SOLVERS = {

@@ -44,6 +44,20 @@ def cubic_spline_gradient(r: Array, h: float) -> Array:
     return _along(r, distance, derivative)
 
 
+def wendland(r: Array, h: float) -> Array:
+    """W = 21 / (2 pi h^3) (1 - q)^4 (1 + 4 q), q = r/h [Wen95]."""
+    q = np.linalg.norm(r, axis=-1) / h
+    return 21.0 / (2.0 * np.pi * h**3) * np.where(q < 1.0, (1.0 - q) ** 4 * (1.0 + 4.0 * q), 0.0)
+
+
+def wendland_gradient(r: Array, h: float) -> Array:
+    """dW/dr = -210 / (pi h^4) q (1 - q)^3, along r/|r|."""
+    distance = np.linalg.norm(r, axis=-1)
+    q = distance / h
+    derivative = -210.0 / (np.pi * h**4) * np.where(q < 1.0, q * (1.0 - q) ** 3, 0.0)
+    return _along(r, distance, derivative)
+
+
 def kernel(fluid: Fluid, r: Array) -> tuple[Array, Array]:
     """(W, grad W) that the fluid uses: W for densities, grad W for gradients."""
     r = np.asarray(r, dtype=np.float64)
@@ -51,6 +65,8 @@ def kernel(fluid: Fluid, r: Array) -> tuple[Array, Array]:
         return poly6(r, fluid.h), spiky_gradient(r, fluid.h)
     if fluid.kernel == "cubic_spline":
         return cubic_spline(r, fluid.h), cubic_spline_gradient(r, fluid.h)
+    if fluid.kernel == "wendland":
+        return wendland(r, fluid.h), wendland_gradient(r, fluid.h)
     raise ValueError(f"unknown kernel {fluid.kernel!r}")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -56,7 +56,7 @@ class Fluid:
             support_radius=None if radius is None else float(as_float32(radius)),
             rest_density=float(as_float32(fluid.rest_density)),
             gravity=tuple(as_float32(fluid.gravity).tolist()),
-            kernel=fluid.kernel,
+            kernel=fluid.kernel or "poly6_spiky",
         )
 
 
@@ -64,9 +64,17 @@ class Fluid:
 class Solver:
     """How the constraint is solved: one time step's worth, so neither substeps nor threads."""
 
-    iterations: int = 4
+    iterations: int | None = None
+    method: str | None = None
+    min_iterations: int = 2
+    max_iterations: int = 100
+    tolerance: float = 0.001
+    max_tolerance: float = math.inf
+    compliance: float = 0.0
+    warm_start: float = 0.5
+    acceleration: str = "nesterov"
     relaxation: float = 0.01
-    constraint_floor: float = -math.inf
+    constraint_floor: float | None = -math.inf
     tensile_strength: float = 0.0
     tensile_distance: float = 0.2
     tensile_exponent: int = 4
@@ -77,5 +85,17 @@ class Solver:
     def of(cls, solver: Any) -> Solver:
         """The same solver as the library's SolverParams."""
         values = {name: getattr(solver, name) for name in cls.__dataclass_fields__}
-        whole = {"iterations", "tensile_exponent"}
-        return cls(**{k: v if k in whole else float(as_float32(v)) for k, v in values.items()})
+        if values["max_tolerance"] is None:
+            values["max_tolerance"] = math.inf
+        made = cls(
+            **{k: float(as_float32(v)) if isinstance(v, float) else v for k, v in values.items()}
+        )
+        if made.constraint_floor is None:
+            floor = -0.002 if made.method_in_force == "plain" else 0.0
+            made = replace(made, constraint_floor=float(as_float32(floor)))
+        return made
+
+    @property
+    def method_in_force(self) -> str:
+        """Counting iterations is the paper's way."""
+        return self.method or ("pressure" if self.iterations is None else "plain")

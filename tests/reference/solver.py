@@ -8,82 +8,39 @@ import numpy as np
 
 from reference.boundary import centers, project
 from reference.calibration import calibration
+from reference.density import corrections, density_constraint, multipliers
 from reference.kernels import kernel
 from reference.neighbors import Neighbors, find_neighbors
 from reference.params import Array, Box, Fluid, Solver
+from reference.pressure import solve_pressures
 
 
 @dataclass(frozen=True)
 class State:
-    """Positions [m] and velocities [m/s], with the densities and multipliers last seen."""
+    """Positions [m] and velocities [m/s], with the densities and multipliers last seen.
+
+    totals: each particle's multipliers added up over the last step, `dt` long [m^2], [s].
+    """
 
     x: Array
     v: Array
     densities: Array
     multipliers: Array
+    totals: Array
+    dt: float = 0.0
+    iterations: int = 0
 
     @classmethod
     def at(cls, x: Array, v: Array) -> State:
         """Particles that have not taken a step yet."""
         x, v = np.asarray(x, dtype=np.float64), np.asarray(v, dtype=np.float64)
-        return cls(x, v, np.zeros(len(x)), np.zeros(len(x)))
+        return cls(x, v, np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x)))
 
 
 def predict(x: Array, v: Array, fluid: Fluid, box: Box | None, dt: float) -> tuple[Array, Array]:
     """v <- v + dt g;  x* <- project(x + dt v)."""
     v = v + dt * np.asarray(fluid.gravity)
     return v, project(x + dt * v, centers(fluid, box))
-
-
-def multipliers(
-    x_star: Array, near: Neighbors, fluid: Fluid, solver: Solver
-) -> tuple[Array, Array]:
-    """Densities rho_i [kg/m^3] and multipliers lambda_i [m^2].
-
-    C_i      = V sum_j W(x*_i - x*_j) + V sum_k W(x*_i - q_k) - 1     j includes i
-    grad_i C = V sum_{j != i} grad W_ij + V sum_k grad W_ik           grad_j C = -V grad W_ij
-    lambda_i = -max(C_i, floor) / (sum_k |grad_k C_i|^2 + epsilon)    epsilon = relaxation D_ideal
-
-    The boundary particles do not move, so they enter grad_i C but have no gradient of their own.
-    Where nothing has a gradient and epsilon is 0, no correction could change C: lambda is 0 there.
-    """
-    volume, ideal_denominator = calibration(fluid)
-    W_self, _ = kernel(fluid, np.zeros(3))
-    W, grad_W, W_q, grad_W_q = _pair_kernels(x_star, near, fluid)
-
-    C = volume * (W_self + near.sum(W) + near.sum_boundary(W_q)) - 1.0
-    grad_i = volume * (near.sum(grad_W) + near.sum_boundary(grad_W_q))
-    grad_j = -volume * grad_W
-    denominator = np.sum(grad_i**2, axis=1) + near.sum(np.sum(grad_j**2, axis=1))
-
-    denominator = denominator + solver.relaxation * ideal_denominator
-
-    clamped = np.maximum(C, solver.constraint_floor)
-    movable = denominator > 0.0
-    lambdas = np.where(movable, -clamped / np.where(movable, denominator, 1.0), 0.0)
-    return fluid.rest_density * (C + 1.0), lambdas
-
-
-def corrections(
-    x_star: Array, lambdas: Array, near: Neighbors, fluid: Fluid, solver: Solver
-) -> Array:
-    """Delta p_i [m].
-
-    Delta p_i = V sum_{j != i} (lambda_i + lambda_j + s_ij) grad W_ij
-              + V sum_k (lambda_i + s_ik) grad W_ik
-    s_ij      = -k (W(r_ij) / W(Delta q))^n         k = tensile_strength / D_ideal
-    """
-    volume, ideal_denominator = calibration(fluid)
-    W, grad_W, W_q, grad_W_q = _pair_kernels(x_star, near, fluid)
-    W_dq, _ = kernel(fluid, np.array([solver.tensile_distance * fluid.h, 0.0, 0.0]))
-
-    k = solver.tensile_strength / ideal_denominator
-    s = -k * (W / W_dq) ** solver.tensile_exponent
-    s_q = -k * (W_q / W_dq) ** solver.tensile_exponent
-
-    pairs = (lambdas[near.i] + lambdas[near.j] + s)[:, None] * grad_W
-    walls = (lambdas[near.boundary_i] + s_q)[:, None] * grad_W_q
-    return volume * (near.sum(pairs) + near.sum_boundary(walls))
 
 
 def vorticity(x: Array, v: Array, near: Neighbors, fluid: Fluid) -> Array:
@@ -128,23 +85,27 @@ def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float)
     """One time step: predict, neighbors once, iterate, velocity, vorticity, XSPH, commit."""
     v, x_star = predict(state.x, state.v, fluid, box, dt)
     near = find_neighbors(x_star, fluid, box)
-    for _ in range(solver.iterations):
-        densities, lambdas = multipliers(x_star, near, fluid, solver)
-        dp = corrections(x_star, lambdas, near, fluid, solver)
-        x_star = project(x_star + dp, centers(fluid, box))
+    if solver.method_in_force == "plain":
+        lambdas, totals = np.zeros(len(state.x)), np.zeros(len(state.x))
+        iterations = 4 if solver.iterations is None else solver.iterations
+        for _ in range(iterations):
+            densities, lambdas = multipliers(x_star, near, fluid, solver)
+            dp = corrections(x_star, lambdas, near, fluid, solver)
+            x_star = project(x_star + dp, centers(fluid, box))
+            totals = totals + lambdas
+    else:
+        # The last step's pressures for this step's length, but for particles that had come free.
+        share = solver.warm_start * (dt / state.dt) ** 2 if state.dt > 0.0 else 0.0
+        pressed = state.densities >= 0.9 * fluid.rest_density
+        start = np.where(pressed, share * state.totals, 0.0)
+        x_star, totals, iterations = solve_pressures(x_star, start, near, fluid, solver, box, dt)
+        lambdas = totals
+        C, _ = density_constraint(x_star, near, fluid)
+        densities = fluid.rest_density * (C + 1.0)
     v = (x_star - state.x) / dt
     if solver.vorticity > 0.0:
         omega = vorticity(x_star, v, near, fluid)
         v = confine(x_star, v, omega, near, fluid, strength=solver.vorticity, dt=dt)
     if solver.xsph > 0.0:
         v = xsph(x_star, v, near, fluid, solver.xsph)
-    return State(x_star, v, densities, lambdas)
-
-
-def _pair_kernels(
-    x_star: Array, near: Neighbors, fluid: Fluid
-) -> tuple[Array, Array, Array, Array]:
-    """W_ij, grad W_ij over the fluid pairs, and W_ik, grad W_ik over the boundary pairs."""
-    W, grad_W = kernel(fluid, x_star[near.i] - x_star[near.j])
-    W_q, grad_W_q = kernel(fluid, x_star[near.boundary_i] - near.q[near.boundary_k])
-    return W, grad_W, W_q, grad_W_q
+    return State(x_star, v, densities, lambdas, totals, dt, iterations)

@@ -44,7 +44,8 @@ void solve_multipliers(const Neighborhood& near,
   x_lambda.resize(x_star.size());
   const Real epsilon = solver.relaxation * disc.ideal_denominator;
   sweep(near, disc, solver.num_threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
-    loops.multipliers(VW, at, epsilon, solver.constraint_floor, x_star.data(), x_lambda.data());
+    loops.multipliers(VW, at, epsilon, solver.constraint_floor_in_force(), x_star.data(),
+                      x_lambda.data());
   });
 }
 

@@ -5,6 +5,36 @@
 /// The sums of fluid/density_constraint.hpp over neighbors j and boundary particles q.
 namespace pbf::PBF_ISA_NAMESPACE {
 
+/// C_i and its gradients.
+struct ConstraintLanes {
+  Vec3Lanes x;  ///< x*_i [m]
+  Lanes C;      ///< ρ_i/ρ0 − 1
+  Lanes grad2;  ///< Σ_k ‖∇_k C_i‖² [1/m²]
+};
+
+template <class Kernel>
+PBF_INLINE ConstraintLanes constraint(const Kernel& VW, const Slice& slice, const Record* x_star) {
+  const Vec3Lanes x_i = load_records(x_star + slice.first).xyz;
+  Lanes density = VW.W(Lanes(0));
+  Lanes sum_grad2 = 0;         // Σ_{j≠i} ‖∇_j C_i‖²
+  Vec3Lanes grad = {0, 0, 0};  // ∇_i C_i
+  slice.for_each_neighbor([&](const std::uint32_t* j) PBF_LAMBDA_INLINE {
+    const Vec3Lanes r = x_i - gather(x_star, j).xyz;
+    const Lanes r2 = dot(r, r);
+    const Lanes s = VW.slope(r2);
+    density += VW.W(r2);
+    grad -= s * r;
+    sum_grad2 += s * r2 * s;  // in this order no product overflows where r is nothing
+  });
+  slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
+    const Vec3Lanes r = x_i - q;
+    const Lanes r2 = dot(r, r);
+    density += VW.W(r2);
+    grad -= VW.slope(r2) * r;
+  });
+  return {x_i, density - Lanes(1), sum_grad2 + dot(grad, grad)};
+}
+
 template <class Kernel>
 void multipliers(const Kernel& VW,
                  const Stretch& at,
@@ -13,29 +43,39 @@ void multipliers(const Kernel& VW,
                  const Record* x_star,
                  Record* x_lambda) {
   for_each_slice(at, [&](const Slice& slice) PBF_LAMBDA_INLINE {
-    const Vec3Lanes x_i = load_records(x_star + slice.first).xyz;
-    Lanes density = VW.W(Lanes(0));
-    Lanes sum_grad2 = 0;         // Σ_{j≠i} ‖∇_j C_i‖²
-    Vec3Lanes grad = {0, 0, 0};  // ∇_i C_i
-    slice.for_each_neighbor([&](const std::uint32_t* j) PBF_LAMBDA_INLINE {
-      const Vec3Lanes r = x_i - gather(x_star, j).xyz;
-      const Lanes r2 = dot(r, r);
-      const Lanes s = VW.slope(r2);
-      density += VW.W(r2);
-      grad -= s * r;
-      sum_grad2 += s * r2 * s;  // in this order no product overflows where r is nothing
-    });
-    slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
-      const Vec3Lanes r = x_i - q;
-      const Lanes r2 = dot(r, r);
-      density += VW.W(r2);
-      grad -= VW.slope(r2) * r;
-    });
-    const Lanes C = max(density - Lanes(1), Lanes(floor));
-    const Lanes denominator = sum_grad2 + dot(grad, grad) + Lanes(epsilon);
+    const ConstraintLanes i = constraint(VW, slice, x_star);
+    const Lanes C = max(i.C, Lanes(floor));
+    const Lanes denominator = i.grad2 + Lanes(epsilon);
     // Without relaxation and without a gradient no correction could change C.
     const Lanes lambda = select(denominator > Lanes(0), -C / denominator, Lanes(0));
-    store_records(x_lambda + slice.first, x_i, lambda);
+    store_records(x_lambda + slice.first, i.x, lambda);
+  });
+}
+
+/// The formulas are in fluid/pressure.hpp.
+template <class Kernel>
+void pressures(const Kernel& VW,
+               const Stretch& at,
+               const PressureTerms& terms,
+               const Record* x_star,
+               Record* states,
+               Record* x_delta) {
+  const Lanes alpha = terms.compliance;
+  for_each_slice(at, [&](const Slice& slice) PBF_LAMBDA_INLINE {
+    const ConstraintLanes i = constraint(VW, slice, x_star);
+    const RecordLanes state = load_records(states + slice.first);
+    const Lanes last = state.xyz.x, guess = state.xyz.y;
+    const Lanes denominator = i.grad2 + Lanes(terms.epsilon) + alpha;
+    const Lanes residual = i.C + alpha * guess;
+    const Lanes wanted = guess - Lanes(terms.step) * residual / denominator;
+    const Lanes most = Lanes(-terms.floor) / denominator;
+    const Lanes allowed = select(wanted > most, most, wanted);
+    const Lanes total = select(denominator > Lanes(0), allowed, last);
+    const Lanes way = total - last;
+    const Lanes next_guess = total + Lanes(terms.momentum) * way;
+    store_records(states + slice.first, Vec3Lanes{total, next_guess, residual},
+                  (guess - total) * denominator * way);
+    store_records(x_delta + slice.first, i.x, next_guess - guess);
   });
 }
 
@@ -90,20 +130,20 @@ void corrections(const Kernel& VW,
       dp -= (i.w + tensile<kExponent>(terms, VW.W(r2))) * VW.slope(r2) * r;
     });
     const Vec3Lanes start = load_records(x + slice.first).xyz;
-    const Vec3Lanes u_i = load_records(u + slice.first).xyz;
+    const RecordLanes u_i = load_records(u + slice.first);
     const Vec3Lanes moved = i.xyz + dp;
     Vec3Lanes allowed, displacement;
     // The displacement grows by Δp, or ends where a wall holds the particle.
     const auto collide = [&](Lanes Vec3Lanes::*axis, int k) PBF_LAMBDA_INLINE {
       allowed.*axis = project(moved.*axis, centers.lower[k], centers.upper[k]);
-      displacement.*axis =
-          select(allowed.*axis == moved.*axis, u_i.*axis + dp.*axis, allowed.*axis - start.*axis);
+      displacement.*axis = select(allowed.*axis == moved.*axis, u_i.xyz.*axis + dp.*axis,
+                                  allowed.*axis - start.*axis);
     };
     collide(&Vec3Lanes::x, 0);
     collide(&Vec3Lanes::y, 1);
     collide(&Vec3Lanes::z, 2);
     store_records(x_star + slice.first, allowed, i.w);
-    store_records(u + slice.first, displacement, 0);
+    store_records(u + slice.first, displacement, u_i.w + i.w);
   });
 }
 

@@ -5,7 +5,7 @@ namespace {
 
 Calibration checked_calibration(const FluidParams& params) {
   validate(params);
-  return calibrate(params.kernel, static_cast<double>(params.spacing),
+  return calibrate(params.kernel_in_force(), static_cast<double>(params.spacing),
                    static_cast<double>(params.h()));
 }
 
@@ -16,6 +16,7 @@ Discretization::Discretization(const FluidParams& params, const std::optional<Bo
   const Calibration calibration = checked_calibration(params);
   V = static_cast<Real>(calibration.volume);
   ideal_denominator = static_cast<Real>(calibration.ideal_denominator);
+  largest_eigenvalue = static_cast<Real>(calibration.largest_eigenvalue);
   if (!domain) return;
   validate(*domain);
   const Vec3 size = domain->upper - domain->lower;

@@ -15,6 +15,7 @@ struct Discretization {
   Real h;                  ///< support radius                                       [m]
   Real V;                  ///< particle volume on the rest lattice                  [m³]
   Real ideal_denominator;  ///< D_ideal: Σ_k ‖∇_k C‖² on the rest lattice            [1/m²]
+  Real largest_eigenvalue;  ///< of the iteration's matrix on the rest lattice        [–]
   std::optional<WallLattice> walls;
   /// Where particle centers may be: the domain less half a spacing on every side, the radius of a
   /// particle. The solver's wall pressure is half of what a mirrored neighbor would give (λ_k is

@@ -13,4 +13,15 @@ void FluidParams::check_together(Faults& faults) const {
   }
 }
 
+void SolverParams::check_together(Faults& faults) const {
+  if (min_iterations > max_iterations) {
+    faults.add("min_iterations", min_iterations, "",
+               "must not exceed max_iterations = " + to_text(max_iterations));
+  }
+  if (min_time_step > max_time_step) {
+    faults.add("min_time_step", min_time_step, "s",
+               "must not exceed max_time_step = " + to_text(max_time_step));
+  }
+}
+
 }  // namespace pbf

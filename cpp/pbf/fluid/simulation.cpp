@@ -16,8 +16,18 @@
 namespace pbf {
 namespace {
 
+constexpr Real square(Real a) { return a * a; }
+
 std::string particle_text(const PointsView& points, Index i) {
   return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
+}
+
+/// The kernel that the method is at its best with: pressures want one that both densities and
+/// gradients come from, or fluid at rest is heated (docs/convergence.md).
+FluidParams with_kernel_for(const SolverParams& solver, FluidParams fluid) {
+  const bool plain = solver.method_in_force() == Method::plain;
+  if (!fluid.kernel) fluid.kernel = plain ? KernelChoice::poly6_spiky : KernelChoice::wendland;
+  return fluid;
 }
 
 Ids consecutive(std::int64_t first, Index count) {
@@ -31,7 +41,7 @@ Ids consecutive(std::int64_t first, Index count) {
 Simulation::Simulation(const FluidParams& fluid,
                        const SolverParams& solver,
                        const std::optional<Box>& domain)
-    : disc_(fluid, domain) {
+    : disc_(with_kernel_for(solver, fluid), domain) {
   set_solver(solver);
 }
 
@@ -73,6 +83,7 @@ Ids Simulation::add_particles(const PointsView& positions,
   state.x.resize(before + added);
   state.v.resize(before + added);
   state.ids.resize(static_cast<std::size_t>(before + added));
+  state.totals.resize(static_cast<std::size_t>(before + added));
   for (Index i = 0; i < added; ++i) {
     const Vec3 x = positions.col(i);
     const Vec3 v = velocities ? Vec3(velocities->col(i)) : Vec3(Vec3::Zero());
@@ -105,19 +116,17 @@ StepReport Simulation::step(Real dt) {
     const auto t = report.time(Stage::boundary);
     near_.boundary.build(disc_.walls, x_star_, near_.fluid.lanes(), threads);
   }
-  for (int k = 0; k < solver_.iterations; ++k, ++report.iterations) {
-    {
-      const auto t = report.time(Stage::multipliers);
-      solve_multipliers(near_, disc_, solver_, x_star_, x_lambda_);
-    }
-    {
-      const auto t = report.time(Stage::corrections);
-      apply_corrections(near_, disc_, solver_, x_lambda_, state_.x, x_star_, u_);
-    }
+  if (solver_.method_in_force() == Method::plain) {
+    iterate_plain(report);
+  } else {
+    iterate_pressure(dt, report);
   }
   {
     const auto t = report.time(Stage::velocity);
     update_velocity(u_, dt, threads, v_new_);
+    new_totals_.resize(state_.totals.size());
+    parallel_for(size(), threads,
+                 [&](Index i) { new_totals_[static_cast<std::size_t>(i)] = u_[i].w; });
   }
   if (solver_.vorticity > 0) {
     const auto t = report.time(Stage::vorticity);
@@ -139,22 +148,105 @@ StepReport Simulation::step(Real dt) {
   }
   state_.x.swap(x_star_);
   state_.v.swap(v_new_);
+  state_.totals.swap(new_totals_);
+  last_dt_ = dt;
   time_ += static_cast<double>(dt);
   ++step_count_;
   return report;
+}
+
+void Simulation::iterate_plain(StepReport& report) {
+  for (const int count = solver_.iterations.value_or(4); report.iterations < count;
+       ++report.iterations) {
+    {
+      const auto t = report.time(Stage::multipliers);
+      solve_multipliers(near_, disc_, solver_, x_star_, x_lambda_);
+    }
+    {
+      const auto t = report.time(Stage::corrections);
+      apply_corrections(near_, disc_, solver_, x_lambda_, state_.x, x_star_, u_);
+    }
+  }
+}
+
+/// Artificial repulsion acts once, with the first corrections: in every iteration the multipliers
+/// would only answer it, and never come to an end.
+void Simulation::iterate_pressure(Real dt, StepReport& report) {
+  SolverParams no_repulsion = solver_;
+  no_repulsion.tensile_strength = 0;
+  {
+    const auto t = report.time(Stage::multipliers);
+    pressure_.begin(x_star_, state_.v, state_.totals, solver_.warm_start, dt, last_dt_,
+                    solver_.num_threads, x_lambda_);
+  }
+  {
+    const auto t = report.time(Stage::corrections);
+    apply_corrections(near_, disc_, solver_, x_lambda_, state_.x, x_star_, u_);
+  }
+  const int most = solver_.iterations.value_or(solver_.max_iterations);
+  const double enough = static_cast<double>(solver_.tolerance) * static_cast<double>(size());
+  const double worst = static_cast<double>(solver_.max_tolerance.value_or(kInfinity));
+  while (report.iterations < most) {
+    {
+      const auto t = report.time(Stage::multipliers);
+      const PressureErrors errors =
+          pressure_.iterate(near_, disc_, solver_, dt, x_star_, x_lambda_);
+      const bool good = errors.sum <= enough && errors.max <= worst;
+      if (good && !solver_.iterations && report.iterations >= solver_.min_iterations) return;
+    }
+    {
+      const auto t = report.time(Stage::corrections);
+      apply_corrections(near_, disc_, no_repulsion, x_lambda_, state_.x, x_star_, u_);
+    }
+    ++report.iterations;
+  }
 }
 
 StepReport Simulation::advance(Real seconds, const std::function<void()>& between_steps) {
   if (!(seconds > 0) || !std::isfinite(seconds)) {
     throw InvalidParameter("seconds = " + to_text(seconds) + " s: must be finite, > 0");
   }
-  const Real dt = seconds / static_cast<Real>(solver_.substeps);
-  StepReport report = step(dt);
-  for (int k = 1; k < solver_.substeps; ++k) {
-    if (between_steps) between_steps();
-    report.add(step(dt));
+  if (solver_.time_step == TimeStep::fixed) {
+    const Real dt = seconds / static_cast<Real>(solver_.substeps);
+    StepReport report = step(dt);
+    for (int k = 1; k < solver_.substeps; ++k) {
+      if (between_steps) between_steps();
+      report.add(step(dt));
+    }
+    return report;
   }
-  return report;
+  const double end = time_ + static_cast<double>(seconds);
+  std::optional<StepReport> report;
+  for (double left = seconds; left > 1e-6 * seconds; left = end - time_) {
+    if (report && between_steps) between_steps();
+    // Equal parts of what is left: no short step at the end.
+    const double parts = std::ceil(left / static_cast<double>(cfl_time_step()) - 1e-6);
+    const StepReport latest = step(static_cast<Real>(left / std::max(parts, 1.0)));
+    if (report) {
+      report->add(latest);
+    } else {
+      report = latest;
+    }
+  }
+  return *report;
+}
+
+/// The time in which the fastest particle, falling on, moves cfl spacings; within bounds.
+Real Simulation::cfl_time_step() const {
+  struct Fastest {
+    Real speed2 = 0;
+    Fastest& operator+=(const Fastest& other) {
+      speed2 = std::max(speed2, other.speed2);
+      return *this;
+    }
+  };
+  const Vec3 fall = solver_.max_time_step * disc_.fluid.gravity;
+  const auto fastest = parallel_sum<Fastest>(size(), solver_.num_threads, [&](Index i) {
+    return Fastest{(vec3(state_.v[i]) + fall).squaredNorm()};
+  });
+  const Real way = solver_.cfl * disc_.fluid.spacing;
+  const Real longest = std::min(solver_.max_time_step, way / std::sqrt(fastest.speed2));
+  return std::max(solver_.min_time_step, longest);
 }
 
 /// Sorts the state by the cells of x*. Which particle is which stays as it was: a step that fails
@@ -166,15 +258,18 @@ void Simulation::sort_by_cell() {
   x.resize(size());
   v.resize(size());
   sorted_ids_.resize(state_.ids.size());
+  new_totals_.resize(state_.totals.size());
   parallel_for(size(), threads, [&](Index k) {
     const std::uint32_t from = grid_.order()[static_cast<std::size_t>(k)];
     x[k] = state_.x[from];
     v[k] = state_.v[from];
     sorted_ids_[static_cast<std::size_t>(k)] = state_.ids[from];
+    new_totals_[static_cast<std::size_t>(k)] = state_.totals[from];
   });
   state_.x.swap(x);
   state_.v.swap(v);
   state_.ids.swap(sorted_ids_);
+  state_.totals.swap(new_totals_);
 }
 
 /// Density errors at the positions the step ends with, from (v, ρ/ρ0); throws if any number is not
@@ -209,6 +304,14 @@ void Simulation::measure(StepReport& report) {
 Points Simulation::positions() const { return scattered(points_of(state_.x), state_.ids); }
 Points Simulation::velocities() const { return scattered(points_of(state_.v), state_.ids); }
 Scalars Simulation::multipliers() const { return scattered(scalars_of(state_.x), state_.ids); }
+Scalars Simulation::pressures() const {
+  Scalars totals(size());
+  const Real scale = last_dt_ > 0 ? -disc_.fluid.rest_density / square(last_dt_) : 0;
+  for (Index i = 0; i < size(); ++i) {
+    totals[i] = scale * state_.totals[static_cast<std::size_t>(i)];
+  }
+  return scattered(totals, state_.ids);
+}
 Ids Simulation::ids() const { return consecutive(0, size()); }
 
 Scalars Simulation::densities() const {
@@ -228,8 +331,8 @@ Scalars Simulation::densities() const {
 std::size_t Simulation::bytes() const {
   const auto n = static_cast<std::size_t>(size());
   const std::size_t records = 6 * n * sizeof(Record);
-  return records + 2 * n * sizeof(std::uint32_t) + grid_.bytes() + near_.fluid.bytes() +
-         near_.boundary.bytes();
+  return records + 2 * n * sizeof(std::uint32_t) + 2 * n * sizeof(Real) + pressure_.bytes() +
+         grid_.bytes() + near_.fluid.bytes() + near_.boundary.bytes();
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pbf/fluid/discretization.hpp"
+#include "pbf/fluid/pressure.hpp"
 #include "pbf/fluid/step_report.hpp"
 
 #include <functional>
@@ -29,8 +30,8 @@ class Simulation {
   /// the state is then that before the call.
   StepReport step(Real dt);
 
-  /// One frame of `seconds`, in solver().substeps steps. `between_steps` is called after each; what
-  /// it throws ends the frame there.
+  /// One frame of `seconds`, in solver().substeps steps, or in as many as an adaptive time step
+  /// makes of it. `between_steps` is called after each; what it throws ends the frame there.
   StepReport advance(Real seconds, const std::function<void()>& between_steps = {});
 
   [[nodiscard]] Index size() const { return state_.x.size(); }
@@ -45,6 +46,8 @@ class Simulation {
   [[nodiscard]] Scalars densities() const;  ///< ρ_i at these positions [kg/m³]
   [[nodiscard]] Scalars multipliers()
       const;  ///< λ_i of the last iteration [m²], zero before the first step
+  [[nodiscard]] Scalars pressures()
+      const;  ///< p_i = −ρ0 Λ_i / Δt² of the last step [Pa], zero before the first
   [[nodiscard]] Ids ids() const;
   /// Memory held, neighbor lists included [bytes].
   [[nodiscard]] std::size_t bytes() const;
@@ -55,7 +58,10 @@ class Simulation {
 
  private:
   void sort_by_cell();
+  void iterate_plain(StepReport& report);
+  void iterate_pressure(Real dt, StepReport& report);
   void measure(StepReport& report);
+  [[nodiscard]] Real cfl_time_step() const;
 
   Discretization disc_;
   SolverParams solver_;
@@ -64,17 +70,21 @@ class Simulation {
 
   /// Sorted by cell.
   struct State {
-    Records x;  // (x, λ)
-    Records v;
+    Records x;                       // (x, λ)
+    Records v;                       // (v, ρ/ρ0)
+    std::vector<Real> totals;        // Λ
     std::vector<std::uint32_t> ids;  // the row that a particle has outside
   };
   State state_;
+  Real last_dt_ = 0;  // of the step that totals belong to [s]
 
   // Of the step under way; x_star_ and v_new_ are swapped with the state when it has succeeded.
   Records x_star_, v_new_;
-  Records u_;         // x* − x; once velocities are known, scratch
+  Records u_;         // (x* − x, Λ); once velocities are known, scratch
   Records x_lambda_;  // (x*, λ) in the iterations, scratch before and after
   std::vector<std::uint32_t> sorted_ids_;
+  std::vector<Real> new_totals_;
+  PressureSolve pressure_;
   CellGrid grid_;
   Neighborhood near_;
 };

@@ -4,6 +4,7 @@
 #include "pbf/core/records.hpp"
 #include "pbf/kernels/cubic_spline.hpp"
 #include "pbf/kernels/poly6_spiky.hpp"
+#include "pbf/kernels/wendland.hpp"
 #include "pbf/neighbors/sliced_rows.hpp"
 
 namespace pbf {
@@ -20,6 +21,15 @@ struct TensileTerms {
   Real k;             ///< [m²]
   Real inverse_W_dq;  ///< 1 / (V W(Δq))
   int exponent;
+};
+
+/// How a multiplier moves towards what its constraint asks for (fluid/pressure.hpp), as numbers.
+struct PressureTerms {
+  Real epsilon;     ///< [1/m²]
+  Real floor;       ///< [–]
+  Real compliance;  ///< α̃ = α/Δt² [1/m²]
+  Real step;        ///< ω [–]
+  Real momentum;    ///< β [–]
 };
 
 /// Where particle centers may be.
@@ -39,7 +49,14 @@ struct Sweeps {
                       Real floor,
                       const Record* x_star,
                       Record* x_lambda);
-  /// x* and u = x* − x from (x*, λ)
+  /// (x*, δ) and the states (Λ, y, r, m) from x* and those states
+  void (*pressures)(const Kernel& VW,
+                    const Stretch& at,
+                    const PressureTerms& terms,
+                    const Record* x_star,
+                    Record* states,
+                    Record* x_delta);
+  /// x* and u = x* − x from (x*, λ); λ adds up in u's fourth number
   void (*corrections)(const Kernel& VW,
                       const Stretch& at,
                       const TensileTerms& tensile,
@@ -75,5 +92,6 @@ struct Sweeps {
 
 const Sweeps<Poly6Spiky<Real>>& sweeps(const Poly6Spiky<Real>& kernel, Isa isa);
 const Sweeps<CubicSpline<Real>>& sweeps(const CubicSpline<Real>& kernel, Isa isa);
+const Sweeps<Wendland<Real>>& sweeps(const Wendland<Real>& kernel, Isa isa);
 
 }  // namespace pbf

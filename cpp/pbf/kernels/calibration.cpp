@@ -1,8 +1,45 @@
 #include "pbf/kernels/calibration.hpp"
 
+#include <Eigen/Core>
+
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace pbf {
+namespace {
+
+/// A lattice point and −∇W there.
+struct Site {
+  std::array<int, 3> cell;
+  Eigen::Vector3d grad;
+};
+
+/// max over k of |Σ ∇W(r) sin(k·r)|². By symmetry k1 ≥ k2 ≥ k3 ≥ 0 is enough, up to π per spacing.
+double largest_symbol(const std::vector<Site>& sites) {
+  constexpr int kSteps = 16;
+  // sin(k·r) depends on k·r modulo 2π only.
+  std::array<double, 2 * kSteps> sine;
+  for (int k = 0; k < 2 * kSteps; ++k) {
+    sine[static_cast<std::size_t>(k)] = std::sin(std::numbers::pi * k / kSteps);
+  }
+  double largest = 0;
+  for (int k1 = 0; k1 <= kSteps; ++k1) {
+    for (int k2 = 0; k2 <= k1; ++k2) {
+      for (int k3 = 0; k3 <= k2; ++k3) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const Site& site : sites) {
+          const int phase = k1 * site.cell[0] + k2 * site.cell[1] + k3 * site.cell[2];
+          sum += sine[static_cast<unsigned>(phase) % (2 * kSteps)] * site.grad;
+        }
+        largest = std::max(largest, sum.squaredNorm());
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
 
 Calibration calibrate(KernelChoice choice, double spacing, double h) {
   if (!(spacing > 0) || !(h > spacing) || !std::isfinite(h)) {
@@ -14,6 +51,7 @@ Calibration calibrate(KernelChoice choice, double spacing, double h) {
     const int reach = static_cast<int>(std::ceil(h / spacing));
     double sum_W = 0;
     double sum_grad2 = 0;  // Σ ‖∇W‖²; the lattice is symmetric, so ∇_i C = V Σ ∇W = 0 adds nothing
+    std::vector<Site> sites;
     for (int a = -reach; a <= reach; ++a) {
       for (int b = -reach; b <= reach; ++b) {
         for (int c = -reach; c <= reach; ++c) {
@@ -21,11 +59,14 @@ Calibration calibrate(KernelChoice choice, double spacing, double h) {
           const double s = r2 > 0 ? kernel.slope(r2) : 0;
           sum_W += kernel.W(r2);
           sum_grad2 += s * s * r2;
+          if (s > 0) sites.push_back({{a, b, c}, s * spacing * Eigen::Vector3d(a, b, c)});
         }
       }
     }
     const double volume = 1 / sum_W;
-    return Calibration{.volume = volume, .ideal_denominator = volume * volume * sum_grad2};
+    return Calibration{.volume = volume,
+                       .ideal_denominator = volume * volume * sum_grad2,
+                       .largest_eigenvalue = largest_symbol(sites) / sum_grad2};
   });
 }
 

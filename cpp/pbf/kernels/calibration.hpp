@@ -10,6 +10,11 @@ struct Calibration {
   double volume = 0;  ///< V = 1 / Σ_lattice W, the particle's share of space            [m³]
   double ideal_denominator =
       0;  ///< D_ideal = Σ_k ‖∇_k C‖² on the lattice, scale of all multipliers [1/m²]
+  /// Of the matrix that takes multipliers to the change of C they make, each row divided by its
+  /// diagonal: on the lattice it is a convolution, whose eigenvalues are
+  ///   |Σ_r V ∇W(r) sin(k·r)|² / D_ideal
+  /// over the wave vectors k. Simultaneous steps longer than 2 over the largest make errors grow.
+  double largest_eigenvalue = 0;
 };
 
 /// Sums over the lattice points within h of one of them. Throws InvalidParameter unless 0 < spacing

@@ -3,17 +3,18 @@
 #include "pbf/core/fields.hpp"
 #include "pbf/kernels/cubic_spline.hpp"
 #include "pbf/kernels/poly6_spiky.hpp"
+#include "pbf/kernels/wendland.hpp"
 
 #include <array>
 
 namespace pbf {
 
 /// Which functions stand for W and ∇W.
-enum class KernelChoice { poly6_spiky, cubic_spline };
+enum class KernelChoice { poly6_spiky, cubic_spline, wendland };
 
 template <>
 struct Choices<KernelChoice> {
-  static constexpr std::array names{"poly6_spiky", "cubic_spline"};
+  static constexpr std::array names{"poly6_spiky", "cubic_spline", "wendland"};
 };
 
 /// Calls f with the chosen kernel of support radius h, times a factor, so that loops are compiled
@@ -21,6 +22,7 @@ struct Choices<KernelChoice> {
 template <class T = Real, class F>
 decltype(auto) with_kernel(KernelChoice choice, T h, T factor, F&& f) {
   if (choice == KernelChoice::cubic_spline) return f(CubicSpline<T>(h, factor));
+  if (choice == KernelChoice::wendland) return f(Wendland<T>(h, factor));
   return f(Poly6Spiky<T>(h, factor));
 }
 template <class T = Real, class F>

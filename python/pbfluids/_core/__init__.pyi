@@ -46,7 +46,7 @@ class FluidParams:
         support_radius: float | None = ...,
         rest_density: float = ...,
         gravity: collections.abc.Sequence[float] = ...,
-        kernel: str = ...,
+        kernel: str | None = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -77,12 +77,12 @@ class FluidParams:
         The support radius in force [m]: support_radius, or 2 * spacing.
         """
     @property
-    def kernel(self) -> str:
+    def kernel(self) -> str | None:
         """
-        poly6_spiky: poly6 for densities, spiky for gradients, as in the paper. cubic_spline: one kernel for both.
+        poly6_spiky: poly6 for densities, spiky for gradients, as in the paper; together they are no gradient of one thing, and fluid at rest simmers. cubic_spline, wendland: one kernel for both; it comes to rest. wendland if not given, poly6_spiky with the plain method.
         """
     @kernel.setter
-    def kernel(self, arg1: str) -> None: ...
+    def kernel(self, arg1: str | None) -> None: ...
     @property
     def rest_density(self) -> float:
         """
@@ -120,10 +120,22 @@ class SolverParams:
     def __init__(
         self,
         *,
-        iterations: int = ...,
+        method: str | None = ...,
+        iterations: int | None = ...,
+        min_iterations: int = ...,
+        max_iterations: int = ...,
+        tolerance: float = ...,
+        max_tolerance: float | None = ...,
+        compliance: float = ...,
+        warm_start: float = ...,
+        acceleration: str = ...,
         substeps: int = ...,
+        time_step: str = ...,
+        cfl: float = ...,
+        min_time_step: float = ...,
+        max_time_step: float = ...,
         relaxation: float = ...,
-        constraint_floor: float = ...,
+        constraint_floor: float | None = ...,
         tensile_strength: float = ...,
         tensile_distance: float = ...,
         tensile_exponent: int = ...,
@@ -141,19 +153,84 @@ class SolverParams:
         A copy with some fields changed.
         """
     @property
-    def constraint_floor(self) -> float:
+    def acceleration(self) -> str:
         """
-        The constraint is never taken below this. 0 pushes only, so drops come off freely; -inf pulls as well and clumps at free surfaces.
+        nesterov: iterations gather momentum, and need the root of the number that none needs. Pressure method.
+        """
+    @acceleration.setter
+    def acceleration(self, arg1: str) -> None: ...
+    @property
+    def cfl(self) -> float:
+        """
+        Adaptive time step: how far the fastest particle may move in a step, as a share of the spacing.
+        """
+    @cfl.setter
+    def cfl(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def compliance(self) -> float:
+        """
+        Softness of the fluid: density / rest_density - 1 = compliance * pressure / rest_density, whatever the time step. One over the speed of sound squared; 0 is incompressible. Pressure method.
+        """
+    @compliance.setter
+    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def constraint_floor(self) -> float | None:
+        """
+        The constraint is never taken below this; with the pressure method, the sum of a step's iterations pulls no more than this asks for. 0 pushes only, so drops come off freely; -inf pulls as well and clumps at free surfaces. If not given: -0.002 with the plain method, 0 with pressure.
         """
     @constraint_floor.setter
-    def constraint_floor(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def constraint_floor(
+        self, arg1: typing.SupportsFloat | typing.SupportsIndex | None
+    ) -> None: ...
     @property
-    def iterations(self) -> int:
+    def iterations(self) -> int | None:
         """
-        Solver iterations per time step. More make the fluid stiffer; a correction travels at most two support radii in each.
+        Solver iterations per time step, exactly. More make the fluid stiffer; a correction travels at most two support radii in each. If not given: 4 with the plain method, as many as the tolerances ask for with pressure.
         """
     @iterations.setter
-    def iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """
+        Most iterations, tolerances met or not.
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_time_step(self) -> float:
+        """
+        Adaptive time step: never longer than this.
+        """
+    @max_time_step.setter
+    def max_time_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_tolerance(self) -> float | None:
+        """
+        Compression of the worst particle that must be reached as well; not looked at if not given.
+        """
+    @max_tolerance.setter
+    def max_tolerance(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def method(self) -> str | None:
+        """
+        plain: every iteration starts from nothing, as in the paper; cheap, and springy where water is deep. pressure: multipliers add up over a time step, a bound keeps them from pulling, and the last step's are a first guess; it holds tall columns. plain if iterations are given, else pressure.
+        """
+    @method.setter
+    def method(self, arg1: str | None) -> None: ...
+    @property
+    def min_iterations(self) -> int:
+        """
+        Fewest iterations before tolerances are looked at.
+        """
+    @min_iterations.setter
+    def min_iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def min_time_step(self) -> float:
+        """
+        Adaptive time step: never shorter than this, but for the last one of a frame.
+        """
+    @min_time_step.setter
+    def min_time_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def num_threads(self) -> int:
         """
@@ -171,7 +248,7 @@ class SolverParams:
     @property
     def substeps(self) -> int:
         """
-        Time steps per frame. More make the fluid stiffer and livelier: compression falls with their square.
+        Time steps per frame where the time step is fixed. More make the fluid livelier, and with the plain method stiffer: compression falls with their square.
         """
     @substeps.setter
     def substeps(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -192,10 +269,24 @@ class SolverParams:
     @property
     def tensile_strength(self) -> float:
         """
-        Artificial repulsion between close particles, in units of 1 / D_ideal. Spreads thin sheets and evens out spacing; too much inflates the fluid. The paper's k is tensile_strength / D_ideal.
+        Artificial repulsion between close particles, in units of 1 / D_ideal, in every iteration or, with the pressure method, once in a step. Spreads thin sheets and evens out spacing; too much inflates the fluid. The paper's k is tensile_strength / D_ideal.
         """
     @tensile_strength.setter
     def tensile_strength(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def time_step(self) -> str:
+        """
+        fixed: substeps equal parts of a frame. adaptive: as many equal parts as the fastest particle needs (cfl), found anew in each step.
+        """
+    @time_step.setter
+    def time_step(self, arg1: str) -> None: ...
+    @property
+    def tolerance(self) -> float:
+        """
+        Mean compression, max(density / rest_density - 1, 0), at which the iterations end. Smaller is stiffer and slower. With compliance: what is left of the compression that the pressure does not account for.
+        """
+    @tolerance.setter
+    def tolerance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def vorticity(self) -> float:
         """
@@ -203,6 +294,13 @@ class SolverParams:
         """
     @vorticity.setter
     def vorticity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def warm_start(self) -> float:
+        """
+        Share of the last time step's pressure that the iterations start from. More needs fewer iterations in calm water; near 1 errors live on and waves build up. Pressure method.
+        """
+    @warm_start.setter
+    def warm_start(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def xsph(self) -> float:
         """
@@ -321,6 +419,7 @@ class Simulation:
     def ids(self) -> numpy.typing.NDArray[numpy.int64]: ...
     def multipliers(self) -> numpy.typing.NDArray[numpy.float32]: ...
     def positions(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def pressures(self) -> numpy.typing.NDArray[numpy.float32]: ...
     def set_solver(self, solver: SolverParams) -> None: ...
     def size(self) -> int: ...
     def solver(self) -> SolverParams: ...

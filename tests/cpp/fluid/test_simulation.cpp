@@ -96,7 +96,7 @@ TEST_CASE("simulation: the report counts iterations and times every stage that r
   Simulation sim = dam_break(1);
   const StepReport report = sim.advance(1.0F / 60);
   CHECK(report.steps == sim.solver().substeps);
-  CHECK(report.iterations == sim.solver().substeps * sim.solver().iterations);
+  CHECK(report.iterations >= sim.solver().substeps * sim.solver().min_iterations);
   for (const double ms : report.milliseconds) CHECK(ms > 0);
   CHECK(report.max_density_error >= report.mean_density_error);
 }

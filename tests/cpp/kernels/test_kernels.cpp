@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
+
 namespace pbf {
 namespace {
 
@@ -23,7 +25,8 @@ double integral(const Kernel& kernel, double h) {
 TEST_CASE_TEMPLATE("kernels: W integrates to one",
                    Kernel,
                    Poly6Spiky<double>,
-                   CubicSpline<double>) {
+                   CubicSpline<double>,
+                   Wendland<double>) {
   for (const double h : {1e-4, 0.05, 1.0, 1e3}) {
     CAPTURE(h);
     CHECK(integral(Kernel(h), h) == doctest::Approx(1.0).epsilon(1e-6));
@@ -33,7 +36,8 @@ TEST_CASE_TEMPLATE("kernels: W integrates to one",
 TEST_CASE_TEMPLATE("kernels: W and its gradient are zero at the support radius and beyond",
                    Kernel,
                    Poly6Spiky<double>,
-                   CubicSpline<double>) {
+                   CubicSpline<double>,
+                   Wendland<double>) {
   const Kernel kernel(0.1);
   for (const double r : {0.1, 0.1000001, 5.0}) {
     CHECK(kernel.W(r * r) == doctest::Approx(0.0));
@@ -41,8 +45,11 @@ TEST_CASE_TEMPLATE("kernels: W and its gradient are zero at the support radius a
   }
 }
 
-TEST_CASE("cubic spline: the gradient is the derivative of W") {
-  const CubicSpline<double> kernel(0.1);
+TEST_CASE_TEMPLATE("cubic spline, Wendland: the gradient is the derivative of W",
+                   Kernel,
+                   CubicSpline<double>,
+                   Wendland<double>) {
+  const Kernel kernel(0.1);
   for (const double r : {0.01, 0.03, 0.049, 0.051, 0.08, 0.099}) {
     const double e = 1e-7;
     const double slope = (kernel.W((r + e) * (r + e)) - kernel.W((r - e) * (r - e))) / (2 * e);
@@ -66,14 +73,16 @@ TEST_CASE("spiky: the gradient is the derivative of 15/(π h⁶) (h − r)³") {
 TEST_CASE_TEMPLATE("kernels: the gradient is finite where two particles coincide",
                    Kernel,
                    Poly6Spiky<float>,
-                   CubicSpline<float>) {
+                   CubicSpline<float>,
+                   Wendland<float>) {
   CHECK(std::isfinite(Kernel(0.04F).slope(0.0F) * 0.0F));
 }
 
 TEST_CASE_TEMPLATE("kernels: a factor multiplies W and its gradient",
                    Kernel,
                    Poly6Spiky<double>,
-                   CubicSpline<double>) {
+                   CubicSpline<double>,
+                   Wendland<double>) {
   const Kernel plain(0.1), scaled(0.1, 1e-6);
   for (const double r : {0.0, 0.02, 0.07, 0.2}) {
     CHECK(scaled.W(r * r) == doctest::Approx(1e-6 * plain.W(r * r)));
@@ -88,6 +97,55 @@ TEST_CASE("calibration: the lattice sum of W times V is one, at any scale") {
     CHECK(c.ideal_denominator * spacing * spacing == doctest::Approx(0.36620).epsilon(1e-4));
   }
   CHECK_THROWS_AS(calibrate(KernelChoice::poly6_spiky, 0.1, 0.05), InvalidParameter);
+}
+
+
+TEST_CASE("calibration: the largest eigenvalue is that of a periodic lattice's matrix") {
+  // 8 particles a side: wave vectors of π/4, which the calibration's grid holds. Power iteration on
+  // λ → C(Δp(λ)) / D, by the formulas of density_constraint.hpp.
+  constexpr int n = 8;
+  for (const KernelChoice choice :
+       {KernelChoice::poly6_spiky, KernelChoice::cubic_spline, KernelChoice::wendland}) {
+    const Calibration c = calibrate(choice, 1.0, 2.0);
+    std::vector<Eigen::Vector3i> offsets;
+    std::vector<Eigen::Vector3d> grads;  // V ∇W_ij for j = i + offset
+    with_kernel<double>(choice, 2.0, [&](const auto& kernel) {
+      for (int k = 0; k < 125; ++k) {
+        const Eigen::Vector3i o(k % 5 - 2, k / 5 % 5 - 2, k / 25 - 2);
+        const double s = kernel.slope(o.cast<double>().squaredNorm());
+        if (o.isZero() || !(s > 0)) continue;
+        offsets.push_back(o);
+        grads.emplace_back(c.volume * s * o.cast<double>());
+      }
+    });
+    const auto at = [](const Eigen::Vector3i& p) {
+      const auto wrapped = [](int a) { return (a + n) % n; };
+      return wrapped(p.x()) + n * (wrapped(p.y()) + n * wrapped(p.z()));
+    };
+    const auto site = [](int i) { return Eigen::Vector3i(i % n, i / n % n, i / (n * n)); };
+    Eigen::VectorXd lambda(n * n * n);
+    for (int i = 0; i < lambda.size(); ++i) lambda[i] = std::sin(7.0 * i * i + i);
+    double eigenvalue = 0;
+    for (int step = 0; step < 300; ++step) {
+      Eigen::Matrix3Xd dp = Eigen::Matrix3Xd::Zero(3, lambda.size());
+      Eigen::VectorXd change = Eigen::VectorXd::Zero(lambda.size());
+      for (int i = 0; i < lambda.size(); ++i) {
+        for (std::size_t k = 0; k < offsets.size(); ++k) {
+          dp.col(i) += (lambda[i] + lambda[at(site(i) + offsets[k])]) * grads[k];
+        }
+      }
+      for (int i = 0; i < lambda.size(); ++i) {
+        for (std::size_t k = 0; k < offsets.size(); ++k) {
+          change[i] += grads[k].dot(dp.col(i) - dp.col(at(site(i) + offsets[k])));
+        }
+      }
+      change /= c.ideal_denominator;
+      eigenvalue = change.norm() / lambda.norm();
+      lambda = change.normalized();
+    }
+    CHECK(eigenvalue <= c.largest_eigenvalue * (1 + 1e-9));
+    CHECK(eigenvalue > 0.93 * c.largest_eigenvalue);  // their wave vectors are four times as dense
+  }
 }
 
 }  // namespace pbf

@@ -1,0 +1,71 @@
+#include "pbf/fluid/pressure.hpp"
+
+#include "pbf/fluid/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pbf {
+namespace {
+
+/// A particle with less than this share of the rest density had little that could press on it.
+constexpr Real kFreeDensity = 0.9F;
+
+}  // namespace
+
+PressureErrors& PressureErrors::operator+=(const PressureErrors& other) {
+  sum += other.sum;
+  max = std::max(max, other.max);
+  uphill += other.uphill;
+  return *this;
+}
+
+void PressureSolve::begin(const Records& x_star,
+                          const Records& v_density,
+                          const std::vector<Real>& totals,
+                          Real share,
+                          Real dt,
+                          Real last_dt,
+                          int threads,
+                          Records& x_delta) {
+  t_ = 1;
+  states_.resize(x_star.size());
+  x_delta.resize(x_star.size());
+  // p = −ρ0 Λ/Δt² stays.
+  const Real scale = last_dt > 0 ? share * (dt / last_dt) * (dt / last_dt) : 0;
+  parallel_for(x_star.size(), threads, [&](Index i) {
+    const bool free = v_density[i].w < kFreeDensity;
+    const Real start = free ? 0 : scale * totals[static_cast<std::size_t>(i)];
+    states_[i] = {start, start, 0, 0};
+    const Record& x = x_star[i];
+    x_delta[i] = {x.x, x.y, x.z, start};
+  });
+}
+
+PressureErrors PressureSolve::iterate(const Neighborhood& near,
+                                      const Discretization& disc,
+                                      const SolverParams& solver,
+                                      Real dt,
+                                      const Records& x_star,
+                                      Records& x_delta) {
+  const double next_t = (1 + std::sqrt(1 + 4 * t_ * t_)) / 2;
+  const bool nesterov = solver.acceleration == Acceleration::nesterov;
+  const PressureTerms terms{
+      .epsilon = solver.relaxation * disc.ideal_denominator,
+      .floor = solver.constraint_floor_in_force(),
+      .compliance = solver.compliance / (dt * dt),
+      .step = 1 / disc.largest_eigenvalue,
+      .momentum = nesterov ? static_cast<Real>((t_ - 1) / next_t) : 0,
+  };
+  sweep(near, disc, solver.num_threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
+    loops.pressures(VW, at, terms, x_star.data(), states_.data(), x_delta.data());
+  });
+  const auto errors = parallel_sum<PressureErrors>(x_star.size(), solver.num_threads, [&](Index i) {
+    const auto r = static_cast<double>(std::max(states_[i].z, Real(0)));
+    return PressureErrors{r, r, static_cast<double>(states_[i].w)};
+  });
+  t_ = errors.uphill > 0 ? 1 : next_t;
+  return errors;
+}
+
+}  // namespace pbf
