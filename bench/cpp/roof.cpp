@@ -59,6 +59,7 @@ void bind_to_processor([[maybe_unused]] int thread, [[maybe_unused]] int threads
 template <class F>
 void in_threads(int threads, F&& f) {
   std::vector<std::jthread> running;
+  running.reserve(static_cast<std::size_t>(threads));
   for (int thread = 0; thread < threads; ++thread) {
     running.emplace_back([&f, thread, threads] {
       bind_to_processor(thread, threads);
@@ -84,10 +85,11 @@ double best_rate(double work, int threads, F&& f) {
     start = now;
   });
   in_threads(threads, [&](int thread) {
-    for (std::int64_t repeat = 0; !enough; ++repeat) {
-      f(repeat, thread);
+    std::int64_t repeat = 0;
+    do {
+      f(repeat++, thread);
       all_done.arrive_and_wait();
-    }
+    } while (!enough);
   });
   return best;
 }
