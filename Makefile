@@ -30,8 +30,11 @@ format:  ## write the format that lint asks for
 bench:  ## time the step and its stages, and say how near they are to what the machine can do
 	@scripts/setup.sh bench
 	cmake --workflow --preset bench
-	@mkdir -p out
-	OMP_WAIT_POLICY=passive build/bench/bench/pbf_bench --benchmark_out=out/bench.json
+	@mkdir -p out/bench
+	@failed=0; for bench in build/bench/bench/bench_*; do \
+	  OMP_WAIT_POLICY=passive $$bench --benchmark_out=out/bench/$${bench##*/bench_}.json \
+	    $(options) || failed=1; \
+	done; exit $$failed
 
 docs:  ## write the generated pages and type stubs again
 	@scripts/setup.sh docs

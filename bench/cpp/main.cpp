@@ -44,7 +44,6 @@ void add_context() {
   const char* wait_policy = std::getenv("OMP_WAIT_POLICY");
   benchmark::AddCustomContext("omp_wait_policy", wait_policy ? wait_policy : "not set");
   benchmark::AddCustomContext("isa", isa_name(chosen_isa()));
-  benchmark::AddCustomContext("roof_isa", roof_of(1).isa);
   for (const std::int64_t threads : thread_counts()) add_roofs(static_cast<int>(threads));
 }
 

@@ -1,5 +1,7 @@
 #include "roof.hpp"
 
+#include "pbf/core/isa.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include "roof_kernels.hpp"
@@ -15,19 +17,26 @@
 #include <sched.h>
 #endif
 
-namespace pbf::bench {
+namespace pbf {
+
+#define PBF_DECLARE(isa)                    \
+  namespace isa {                           \
+  const bench::RoofKernels& roof_kernels(); \
+  }
+PBF_FOR_EACH_ISA(PBF_DECLARE)
+#undef PBF_DECLARE
+
+namespace bench {
 namespace {
 
 constexpr std::chrono::milliseconds kTimePerRoof{100};
 
-const RoofKernels& best_kernels() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
-    return roof_kernels_x86_64_v4;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    return roof_kernels_x86_64_v3;
-#endif
-  return roof_kernels_baseline;
+const RoofKernels& roof_kernels(Isa isa) {
+  using FindTable = const RoofKernels& (*)();
+#define PBF_TABLE(isa) isa::roof_kernels,
+  static constexpr FindTable tables[] = {PBF_FOR_EACH_ISA(PBF_TABLE)};
+#undef PBF_TABLE
+  return tables[static_cast<std::size_t>(isa)]();
 }
 
 /// Binds the calling thread to a processor of its own if there is one for every thread. Else, and
@@ -50,6 +59,7 @@ void bind_to_processor([[maybe_unused]] int thread, [[maybe_unused]] int threads
 template <class F>
 void in_threads(int threads, F&& f) {
   std::vector<std::jthread> running;
+  running.reserve(static_cast<std::size_t>(threads));
   for (int thread = 0; thread < threads; ++thread) {
     running.emplace_back([&f, thread, threads] {
       bind_to_processor(thread, threads);
@@ -75,10 +85,11 @@ double best_rate(double work, int threads, F&& f) {
     start = now;
   });
   in_threads(threads, [&](int thread) {
-    for (std::int64_t repeat = 0; !enough; ++repeat) {
-      f(repeat, thread);
+    std::int64_t repeat = 0;
+    do {
+      f(repeat++, thread);
       all_done.arrive_and_wait();
-    }
+    } while (!enough);
   });
   return best;
 }
@@ -133,25 +144,21 @@ double bandwidth(const RoofKernels& kernels, int threads) {
 double record_rate(decltype(RoofKernels::load_records) loop, std::uint32_t size, int threads) {
   constexpr int kCount = 1 << 13;
   constexpr int kPasses = 100;
-  struct alignas(16) Record {
-    float x, y, z, w;
-  };
   const std::vector<Record> records(size, Record{1, 2, 3, 4});
   std::mt19937 random;  // its numbers are the same everywhere
-  std::vector<std::uint32_t> index(kCount);
-  for (auto& j : index) j = static_cast<std::uint32_t>(random()) % size;
+  std::vector<std::uint32_t> entries(kCount);
+  for (auto& entry : entries) entry = 4 * (static_cast<std::uint32_t>(random()) % size);
   return best_rate(kCount * kPasses, threads, [&](std::int64_t, int) {
     for (int pass = 0; pass < kPasses; ++pass)
-      benchmark::DoNotOptimize(loop(&records[0].x, index.data(), kCount));
+      benchmark::DoNotOptimize(loop(records.data(), entries.data(), kCount));
   });
 }
 
 Roof measured(int threads) {
-  const RoofKernels& kernels = best_kernels();
+  const RoofKernels& kernels = roof_kernels(chosen_isa());
   constexpr std::uint32_t kFirstCache = 1 << 9;    // records: 8 KiB
   constexpr std::uint32_t kSecondCache = 1 << 13;  // 128 KiB
   return {
-      .isa = kernels.isa,
       .fused_flops = flops(kernels.fused, kernels.fused_flops, threads),
       .separate_flops = flops(kernels.separate, kernels.separate_flops, threads),
       .bandwidth = bandwidth(kernels, threads),
@@ -172,4 +179,5 @@ const Roof& roof_of(int threads) {
                               : roofs.emplace(threads, measured(threads)).first->second;
 }
 
-}  // namespace pbf::bench
+}  // namespace bench
+}  // namespace pbf

@@ -2,10 +2,9 @@
 
 namespace pbf::bench {
 
-/// What this machine can do at best with a number of threads: the roofs of the roofline model
-/// [WWP09], each the best of many short runs.
+/// What this machine can do at best with a number of threads and chosen_isa(): the roofs of the
+/// roofline model [WWP09], each the best of many short runs.
 struct Roof {
-  const char* isa;         ///< best instruction set of roof_kernels.cpp that runs here
   double fused_flops;      ///< multiply-adds, fused where the instruction set can         [flop/s]
   double separate_flops;   ///< multiplications and additions that are not fused           [flop/s]
   double bandwidth;        ///< of memory, beyond the last cache                              [B/s]

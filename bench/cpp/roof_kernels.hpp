@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pbf/core/records.hpp"
+
 #include <cstdint>
 
 namespace pbf::bench {
@@ -7,8 +9,6 @@ namespace pbf::bench {
 /// The loops that roof.cpp times, compiled for one instruction set. A loop returns what its work
 /// comes to, so that none of it can be left out.
 struct RoofKernels {
-  const char* isa;
-
   /// `rounds` times a multiply-add x ← x · a + b in each of several independent chains.
   float (*fused)(std::int64_t rounds, float a, float b);
   double fused_flops;  ///< of a round
@@ -19,18 +19,14 @@ struct RoofKernels {
 
   /// a[k] = b[k] + s · c[k] for k in [0, n), the triad of STREAM [McC95].
   void (*triad)(std::int64_t n, float s, const float* b, const float* c, float* a);
-  /// Loads the `count` records (x, y, z, w) that index names and turns them into vectors of x, y, z
-  /// and w, a record per lane. `records` is aligned to 16 bytes, `count` a multiple of 16.
-  float (*load_records)(const float* records, const std::uint32_t* index, std::int64_t count);
+  /// Loads the records that the `count` entries name, each four times a record's place, and turns
+  /// them into vectors of x, y, z and w, a record per lane: the solver's own gather(). `count` is a
+  /// multiple of 16.
+  float (*load_records)(const Record* records, const std::uint32_t* entries, std::int64_t count);
   /// The same by gather instructions; null where there are none.
-  float (*gather_records)(const float* records,
-                          const std::uint32_t* index,
+  float (*gather_records)(const Record* records,
+                          const std::uint32_t* entries,
                           std::int64_t count) = nullptr;
 };
-
-// One for each time that CMakeLists.txt compiles roof_kernels.cpp.
-extern const RoofKernels roof_kernels_baseline;
-extern const RoofKernels roof_kernels_x86_64_v3;
-extern const RoofKernels roof_kernels_x86_64_v4;
 
 }  // namespace pbf::bench

@@ -16,8 +16,8 @@ namespace pbf::bench {
 std::vector<std::int64_t> thread_counts();
 
 /// Times `stage`, or the whole step without one. The result is wrong, and has no time, if the fluid
-/// is compressed or if the state differs in a bit from that of another row with as many particles
-/// and the same parameters.
+/// is compressed or if the state differs in a bit from that of another row with as many particles:
+/// the benchmarks of one executable differ in threads alone.
 void time_stage(benchmark::State& state, std::optional<Stage> stage, SolverParams solver = {});
 
 /// True once a benchmark had a wrong result.

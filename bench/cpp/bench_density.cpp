@@ -3,14 +3,6 @@
 namespace pbf::bench {
 namespace {
 
-/// λ, first half of an iteration.
-void multipliers(benchmark::State& state) { time_stage(state, Stage::multipliers); }
-BENCHMARK(multipliers)->Apply(rows);
-
-/// Δp, second half of an iteration.
-void corrections(benchmark::State& state) { time_stage(state, Stage::corrections); }
-BENCHMARK(corrections)->Apply(rows);
-
 /// ρ, once at the end of a step; a sweep of its own only where there is no XSPH to take it along.
 void density(benchmark::State& state) { time_stage(state, Stage::density, {.xsph = 0}); }
 BENCHMARK(density)->Apply(rows);
