@@ -14,6 +14,7 @@ struct FluidParams {
   Real rest_density = 1000.0F;
   Vec3 gravity{0.0F, -9.81F, 0.0F};
   KernelChoice kernel = KernelChoice::poly6_spiky;
+  int dimensions = 3;
 
   /// The support radius h in force [m].
   [[nodiscard]] Real h() const { return support_radius.value_or(2.0F * spacing); }
@@ -35,6 +36,11 @@ struct FluidParams {
         Field{"kernel", &FluidParams::kernel, "", anything(),
               "poly6_spiky: poly6 for densities, spiky for gradients, as in the paper. "
               "cubic_spline: one kernel for both."},
+        Field{
+            "dimensions", &FluidParams::dimensions, "", between(2, 3),
+            "3: the fluid fills space. 2: it flows in a plane of constant z, with the kernels and "
+            "the rest lattice of the plane; z of the gravity must be 0, and the domain has walls "
+            "in x and y only."},
     };
   }
   void check_together(Faults& faults) const;
