@@ -154,16 +154,17 @@ void register_fluid(py::module_& m) {
   bind_simulation(m);
   m.def(
       "block",
-      [](const std::array<double, 3>& lower, const std::array<double, 3>& upper, Real spacing) {
-        return points_to_numpy(block(vec3(lower), vec3(upper), spacing));
+      [](const std::array<double, 3>& lower, const std::array<double, 3>& upper, Real spacing,
+         int dimensions) {
+        return points_to_numpy(block(vec3(lower), vec3(upper), spacing, dimensions));
       },
-      "lower"_a, "upper"_a, "spacing"_a);
+      "lower"_a, "upper"_a, "spacing"_a, "dimensions"_a = 3);
   m.def(
       "ball",
-      [](const std::array<double, 3>& center, Real radius, Real spacing) {
-        return points_to_numpy(ball(vec3(center), radius, spacing));
+      [](const std::array<double, 3>& center, Real radius, Real spacing, int dimensions) {
+        return points_to_numpy(ball(vec3(center), radius, spacing, dimensions));
       },
-      "center"_a, "radius"_a, "spacing"_a);
+      "center"_a, "radius"_a, "spacing"_a, "dimensions"_a = 3);
 }
 
 }  // namespace pbf

@@ -38,8 +38,9 @@ struct Sorted {
 };
 
 py::tuple calibration_of(const FluidParams& fluid) {
-  const Calibration c = calibrate(fluid.kernel_in_force(), static_cast<double>(fluid.spacing),
-                                  static_cast<double>(fluid.h()));
+  const Calibration c =
+      calibrate(fluid.kernel_in_force(), fluid.dimensions, static_cast<double>(fluid.spacing),
+                static_cast<double>(fluid.h()));
   return py::make_tuple(c.volume, c.ideal_denominator);
 }
 
@@ -48,7 +49,7 @@ py::tuple kernel_of(const FluidParams& fluid, const py::object& r) {
   const auto view = points_view(array);
   Scalars W(view.cols());
   Points grad(3, view.cols());
-  with_kernel(fluid.kernel_in_force(), fluid.h(), [&](const auto& kernel) {
+  with_kernel(fluid.kernel_in_force(), fluid.dimensions, fluid.h(), [&](const auto& kernel) {
     for (Index i = 0; i < view.cols(); ++i) {
       const Real r2 = view.col(i).squaredNorm();
       W[i] = kernel.W(r2);

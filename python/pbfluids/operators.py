@@ -14,7 +14,8 @@ density    ρ0 V Σ_j W_ij, the particle itself included
 
 Constants are differentiated exactly, to zero. ``corrected=True``, the default, multiplies gradients
 with the inverse of V Σ (x_j − x_i) ⊗ ∇W, which makes linear fields exact too, at free surfaces as
-well.
+well. All of it is meant for space: for particles in one plane the kernels, their volume and the
+gradients are not those of a fluid in 2-D.
 
 Parameters common to all:
 

@@ -242,18 +242,19 @@ class Scene:
 
     def particles(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
         """Positions and velocities at the start, each of shape (n, 3), float32 [m], [m/s]."""
-        spacing = self.fluid.spacing
-        positions, velocities = [], []
+        lattice = self.fluid.spacing, self.fluid.dimensions
+        shapes, velocities = [], []
         for block in self._tables["blocks"]:
-            positions.append(_core.block(block["lower"], block["upper"], spacing))
+            shapes.append(_core.block(block["lower"], block["upper"], *lattice))
             velocities.append(block["velocity"])
         for ball in self._tables["balls"]:
-            positions.append(_core.ball(ball["center"], ball["radius"], spacing))
+            shapes.append(_core.ball(ball["center"], ball["radius"], *lattice))
             velocities.append(ball["velocity"])
-        counts = [len(rows) for rows in positions]
-        return np.concatenate(positions), np.repeat(
-            np.array(velocities, np.float32), counts, axis=0
-        )
+        counts = [len(rows) for rows in shapes]
+        positions = np.concatenate(shapes)
+        if self.fluid.dimensions == 2:
+            positions[:, 2] = positions[:1, 2]  # one plane, to the last bit
+        return positions, np.repeat(np.array(velocities, np.float32), counts, axis=0)
 
     def simulation(self) -> Simulation:
         """Make a simulation of the scene, at its start."""

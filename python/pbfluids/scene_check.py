@@ -63,8 +63,9 @@ def check(data: Mapping[str, Any]) -> tuple[SceneTables | None, list[str]]:
     items = list(_sound_items(data, wrong))
     if not items and not any(path[0] in ("blocks", "balls") for path in wrong):
         faults.append("blocks: missing, there is no fluid without [[blocks]] or [[balls]]")
-    spacing = structs["fluid"].spacing if structs["fluid"] else None
-    faults += geometry_faults(items, _sound_domain(data, wrong), spacing)
+    fluid = structs["fluid"]
+    spacing, dimensions = (fluid.spacing, fluid.dimensions) if fluid else (None, 3)
+    faults += geometry_faults(items, _sound_domain(data, wrong), spacing, dimensions)
     return model, faults
 
 

@@ -18,7 +18,10 @@ BYTES_PER_PARTICLE = 1024
 
 @dataclass(frozen=True)
 class Shape:
-    """A block, or a ball with the box around it, and its path inside the scene."""
+    """A block, or a ball with the box around it, and its path inside the scene.
+
+    In 2-D a rectangle or a disk: there is no z.
+    """
 
     path: str
     lower: Sequence[float]
@@ -27,18 +30,20 @@ class Shape:
     radius: float | None = None
 
     @classmethod
-    def of(cls, path: str, item: Block | Ball) -> Shape:
+    def of(cls, path: str, item: Block | Ball, dimensions: int) -> Shape:
         """Make a shape from what the scene says."""
         if isinstance(item, Block):
-            return cls(path, item.lower, item.upper)
-        lower = [x - item.radius for x in item.center]
-        upper = [x + item.radius for x in item.center]
-        return cls(path, lower, upper, item.center, item.radius)
+            return cls(path, item.lower[:dimensions], item.upper[:dimensions])
+        center = item.center[:dimensions]
+        lower = [x - item.radius for x in center]
+        upper = [x + item.radius for x in center]
+        return cls(path, lower, upper, center, item.radius)
 
     def volume(self) -> float:
-        """Volume [m^3]."""
+        """Volume [m^3], in 2-D area [m^2]."""
         if self.radius is not None:
-            return 4 / 3 * math.pi * self.radius * self.radius * self.radius
+            unit_ball = 4 / 3 * math.pi if len(self.center) == 3 else math.pi
+            return unit_ball * math.prod([self.radius] * len(self.center))
         return math.prod(b - a for a, b in zip(self.lower, self.upper, strict=True))
 
     def overlap(self, other: Shape) -> float:
@@ -55,7 +60,10 @@ class Shape:
 
 
 def geometry_faults(
-    items: Sequence[tuple[str, Block | Ball]], domain: Domain | None, spacing: float | None
+    items: Sequence[tuple[str, Block | Ball]],
+    domain: Domain | None,
+    spacing: float | None,
+    dimensions: int,
 ) -> Iterator[str]:
     """Check blocks and balls, given with their paths, against each other, domain and memory.
 
@@ -68,6 +76,8 @@ def geometry_faults(
     spacing
         Particle distance at rest [m]; None if it is not known, and then nothing that it decides
         is checked.
+    dimensions
+        3, or 2 for fluid in a plane.
 
     Yields
     ------
@@ -75,7 +85,9 @@ def geometry_faults(
         A line for each fault.
     """
     shapes = []
-    for shape in (Shape.of(path, item) for path, item in items):
+    if dimensions == 2:
+        yield from _plane_faults(items, spacing or 0.0)
+    for shape in (Shape.of(path, item, dimensions) for path, item in items):
         faults = list(_extent_faults(shape, spacing or 0.0))
         yield from faults
         shapes += [] if faults else [shape]
@@ -95,6 +107,27 @@ def geometry_faults(
         yield from _memory_faults(shapes, spacing)
 
 
+def _plane_faults(items: Sequence[tuple[str, Block | Ball]], spacing: float) -> Iterator[str]:
+    """Check that all fluid lies, and stays, in the plane of the first block or ball."""
+    planes = [
+        (path, (item.lower[2] + item.upper[2]) / 2 if isinstance(item, Block) else item.center[2])
+        for path, item in items
+    ]
+    for path, z in planes[1:]:
+        if abs(z - planes[0][1]) > 1e-3 * spacing:
+            yield (
+                f"{path}: its plane z = {z:g} m is not that of {planes[0][0]}, z = "
+                f"{planes[0][1]:g} m; in 2-D all fluid lies in one plane"
+            )
+    for path, item in items:
+        if isinstance(item, Block) and item.upper[2] < item.lower[2]:
+            yield (
+                f"{path}.upper[2] = {item.upper[2]:g} m: must be >= lower[2] = {item.lower[2]:g} m"
+            )
+        if item.velocity[2] != 0:
+            yield f"{path}.velocity[2] = {item.velocity[2]:g} m/s: must be 0 in 2-D"
+
+
 def _extent_faults(shape: Shape, spacing: float) -> Iterator[str]:
     for axis, (a, b) in enumerate(zip(shape.lower, shape.upper, strict=True)):
         if not b > a:
@@ -107,7 +140,7 @@ def _extent_faults(shape: Shape, spacing: float) -> Iterator[str]:
 
 
 def _outside_faults(shape: Shape, domain: Domain, tolerance: float) -> Iterator[str]:
-    for axis in range(3):
+    for axis in range(len(shape.lower)):
         low, high = shape.lower[axis], shape.upper[axis]
         if low < domain.lower[axis] - tolerance:
             wall = domain.lower[axis]
@@ -118,7 +151,7 @@ def _outside_faults(shape: Shape, domain: Domain, tolerance: float) -> Iterator[
 
 
 def _memory_faults(shapes: Sequence[Shape], spacing: float) -> Iterator[str]:
-    particles = sum(shape.volume() for shape in shapes) / spacing**3
+    particles = sum(shape.volume() / spacing ** len(shape.lower) for shape in shapes)
     need, have = particles * BYTES_PER_PARTICLE, available_memory()
     if need > have:
         yield (

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 __all__ = ["Box", "FluidParams", "Simulation", "SolverParams", "StepReport", "ball", "block"]
 
 
-def block(lower: Sequence[float], upper: Sequence[float], spacing: float) -> NDArray[np.float32]:
+def block(
+    lower: Sequence[float], upper: Sequence[float], spacing: float, dimensions: int = 3
+) -> NDArray[np.float32]:
     """Particles on a cubic lattice that fill a box.
 
     The first layer lies half a spacing inside ``lower``; as many layers follow as fit. A block next
@@ -29,6 +31,9 @@ def block(lower: Sequence[float], upper: Sequence[float], spacing: float) -> NDA
         Opposite corners [m].
     spacing : float
         Distance of neighbors [m], > 0.
+    dimensions : 3 or 2
+        2: one layer of the square lattice in x and y, at the z midway between the corners, for a
+        fluid of as many dimensions.
 
     Returns
     -------
@@ -38,13 +43,16 @@ def block(lower: Sequence[float], upper: Sequence[float], spacing: float) -> NDA
     Raises
     ------
     InvalidParameter
-        If ``upper`` is less than ``lower`` on an axis, or the spacing not positive.
+        If ``upper`` is less than ``lower`` on an axis, the spacing not positive, or the dimensions
+        neither 2 nor 3.
 
     """
-    return _core.block(lower, upper, spacing)
+    return _core.block(lower, upper, spacing, dimensions)
 
 
-def ball(center: Sequence[float], radius: float, spacing: float) -> NDArray[np.float32]:
+def ball(
+    center: Sequence[float], radius: float, spacing: float, dimensions: int = 3
+) -> NDArray[np.float32]:
     """Particles on a cubic lattice that fill a ball.
 
     Parameters
@@ -55,14 +63,21 @@ def ball(center: Sequence[float], radius: float, spacing: float) -> NDArray[np.f
         [m], >= 0.
     spacing : float
         Distance of neighbors [m], > 0.
+    dimensions : 3 or 2
+        2: a disk of the square lattice in x and y, at the z of the center.
 
     Returns
     -------
     ndarray, shape (n, 3), float32
         Positions [m].
 
+    Raises
+    ------
+    InvalidParameter
+        If the radius is negative, the spacing not positive, or the dimensions neither 2 nor 3.
+
     """
-    return _core.ball(center, radius, spacing)
+    return _core.ball(center, radius, spacing, dimensions)
 
 
 class Simulation:
@@ -120,9 +135,10 @@ class Simulation:
         Parameters
         ----------
         positions : array_like, shape (n, 3)
-            [m], finite and within the domain.
+            [m], finite and within the domain. In 2-D all have the same z, that of the first
+            particle ever added, and z of the domain does not matter.
         velocities : array_like, shape (n, 3), optional
-            [m/s], finite. At rest if not given.
+            [m/s], finite; in 2-D z is 0. At rest if not given.
 
         Returns
         -------
@@ -132,7 +148,8 @@ class Simulation:
         Raises
         ------
         InvalidParameter
-            If a shape is wrong, a value not finite or a position outside the domain.
+            If a shape is wrong, a value not finite, or a position outside the domain or, like a
+            velocity, the plane of a fluid in 2-D.
         WrongType
             If an array does not hold real numbers.
 

@@ -90,3 +90,14 @@ def test_twenty_steps_of_the_two_sided_constraint_in_a_full_tank_agree() -> None
     v = 4.0 * np.cross([0.0, 0.0, 1.0], x - middle)
     simulation, state = run_both(fluid, solver, box, x, v)
     assert_same(simulation, state, x)
+
+
+@pytest.mark.parametrize("kernel", ["poly6_spiky", "cubic_spline"])
+def test_twenty_steps_of_a_dam_break_in_a_plane_agree(kernel: str) -> None:
+    fluid = pbf.FluidParams(spacing=D, kernel=kernel, dimensions=2)
+    box = pbf.Box((0.0, 0.0, 0.0), (26.3 * D, 30 * D, 1.0))
+    x = jittered_block((16, 20, 1), D, seed=44, share=0.1)
+    x[:, 2] = 0.3
+    v = np.tile([0.3, -1.0, 0.0], (len(x), 1))
+    simulation, state = run_both(fluid, ALL_TERMS, box, x, v)
+    assert_same(simulation, state, x)

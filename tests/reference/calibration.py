@@ -10,11 +10,15 @@ from reference.kernels import kernel
 from reference.params import Array, Fluid
 
 
-def lattice(spacing: float, reach: float) -> Array:
-    """Points of the cubic lattice through the origin, at least as far as `reach` on each axis."""
+def lattice(spacing: float, reach: float, dimensions: int = 3) -> Array:
+    """Points of the cubic lattice through the origin, at least as far as `reach` on each axis.
+
+    In a plane those of the square lattice, with z = 0.
+    """
     n = math.ceil(reach / spacing)
     axis = spacing * np.arange(-n, n + 1)
-    return np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+    z = axis if dimensions == 3 else np.zeros(1)
+    return np.stack(np.meshgrid(axis, axis, z, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 def calibration(fluid: Fluid) -> tuple[float, float]:
@@ -22,7 +26,7 @@ def calibration(fluid: Fluid) -> tuple[float, float]:
 
     grad_k C = -V grad W_ik for the neighbors k != i; grad_i C = 0, the lattice being symmetric.
     """
-    W, grad_W = kernel(fluid, -lattice(fluid.spacing, fluid.h))
+    W, grad_W = kernel(fluid, -lattice(fluid.spacing, fluid.h, fluid.dimensions))
     volume = 1.0 / W.sum()
     ideal_denominator = np.sum((volume * grad_W) ** 2)  # the center adds 0: grad W(0) = 0
     return float(volume), float(ideal_denominator)

@@ -48,7 +48,9 @@ def find_neighbors(x_star: Array, fluid: Fluid, box: Box | None = None) -> Neigh
     """Fluid and boundary neighbors of x*, those with r^2 < h^2. Nobody neighbors itself."""
     i, j = pairs_within(x_star, x_star, fluid.h)
     others = i != j
-    q = np.empty((0, 3)) if box is None else boundary_lattice(fluid, box)
+    q = np.empty((0, 3))
+    if box is not None and len(x_star) > 0:
+        q = boundary_lattice(fluid, box, plane=x_star[0, 2])
     boundary_i, boundary_k = pairs_within(x_star, q, fluid.h)
     return Neighbors(len(x_star), i[others], j[others], boundary_i, boundary_k, q)
 

@@ -41,6 +41,7 @@ class Fluid:
     rest_density: float = 1000.0
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)
     kernel: str = "poly6_spiky"
+    dimensions: int = 3
 
     @property
     def h(self) -> float:
@@ -57,6 +58,7 @@ class Fluid:
             rest_density=float(as_float32(fluid.rest_density)),
             gravity=tuple(as_float32(fluid.gravity).tolist()),
             kernel=fluid.kernel or "poly6_spiky",
+            dimensions=fluid.dimensions,
         )
 
 

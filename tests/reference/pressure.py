@@ -18,7 +18,7 @@ from reference.params import Array, Box, Fluid, Solver
 
 def largest_eigenvalue(fluid: Fluid) -> float:
     """Max over k of |V sum_r grad W(r) sin(k.r)|^2 / D_ideal, k on a grid of pi/16 per spacing."""
-    r = lattice(fluid.spacing, fluid.h)
+    r = lattice(fluid.spacing, fluid.h, fluid.dimensions)
     _, grad_W = kernel(fluid, r)
     steps = np.arange(17) * math.pi / 16.0 / fluid.spacing
     k = np.array(list(itertools.product(steps, repeat=3)))

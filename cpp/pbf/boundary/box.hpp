@@ -2,6 +2,8 @@
 
 #include "pbf/core/fields.hpp"
 
+#include <limits>
+
 namespace pbf {
 
 /// An axis-aligned tank: particles stay in the closed box [lower, upper].
@@ -18,6 +20,16 @@ struct Box {
   [[nodiscard]] Real project(int axis, Real x) const {
     const Real raised = x < lower[axis] ? lower[axis] : x;
     return raised > upper[axis] ? upper[axis] : raised;
+  }
+  /// The box that reaches to infinity along the axes from number `dimensions` on.
+  [[nodiscard]] Box open_beyond(int dimensions) const {
+    Box box = *this;
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    for (int axis = dimensions; axis < 3; ++axis) {
+      box.lower[axis] = -infinity;
+      box.upper[axis] = infinity;
+    }
+    return box;
   }
   [[nodiscard]] bool contains(const Vec3& x) const {
     return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();

@@ -4,9 +4,13 @@
 
 namespace pbf {
 
-WallLattice::WallLattice(const Box& box, Real spacing, Real h)
-    : box_(box), spacing_(spacing), h_(h), layers_(static_cast<int>(std::ceil(h / spacing))) {
-  for (int axis = 0; axis < 3; ++axis) {
+WallLattice::WallLattice(const Box& box, Real spacing, Real h, int dimensions)
+    : walls_(box.open_beyond(dimensions)),
+      spacing_(spacing),
+      h_(h),
+      dimensions_(dimensions),
+      layers_(static_cast<int>(std::ceil(h / spacing))) {
+  for (int axis = 0; axis < dimensions; ++axis) {
     const double length =
         static_cast<double>(box.upper[axis]) - static_cast<double>(box.lower[axis]);
     cells_[axis] = std::max<Index>(1, std::llround(length / static_cast<double>(spacing)));
@@ -16,15 +20,20 @@ WallLattice::WallLattice(const Box& box, Real spacing, Real h)
 
 WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
   Sites sites;
+  if (axis >= dimensions_) {
+    sites.at[0] = x;
+    sites.size = sites.end_inside = 1;
+    return sites;
+  }
   const auto add_if_near = [&](Real at) {
     if (std::abs(x - at) < h_) sites.at[static_cast<std::size_t>(sites.size++)] = at;
   };
-  const Real from_lower = x - box_.lower[axis];
-  const Real to_upper = box_.upper[axis] - x;
+  const Real from_lower = x - walls_.lower[axis];
+  const Real to_upper = walls_.upper[axis] - x;
 
   if (from_lower < h_) {
     for (int k = layers_ - 1; k >= 0; --k) {
-      add_if_near(box_.lower[axis] - (static_cast<Real>(k) + 0.5F) * spacing_);
+      add_if_near(walls_.lower[axis] - (static_cast<Real>(k) + 0.5F) * spacing_);
     }
   }
   sites.first_inside = sites.size;
@@ -35,12 +44,12 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
   const Index last =
       std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_lower + h_ + half) / size));
   for (Index k = first; k <= last; ++k) {
-    add_if_near(box_.lower[axis] + (static_cast<Real>(k) + 0.5F) * size);
+    add_if_near(walls_.lower[axis] + (static_cast<Real>(k) + 0.5F) * size);
   }
   sites.end_inside = sites.size;
   if (to_upper < h_) {
     for (int k = 0; k < layers_; ++k) {
-      add_if_near(box_.upper[axis] + (static_cast<Real>(k) + 0.5F) * spacing_);
+      add_if_near(walls_.upper[axis] + (static_cast<Real>(k) + 0.5F) * spacing_);
     }
   }
   return sites;

@@ -14,15 +14,16 @@ namespace pbf {
 /// On each axis the sites are  lower − (k + ½) d  and  upper + (k + ½) d  outside, k = 0 …
 /// ceil(h/d) − 1, and the centers of round(L/d) equal cells inside, so that the lattice fits both
 /// walls. The boundary particles are all combinations of three coordinates but those with all three
-/// inside.
+/// inside. In 2-D the only site along z is the particle's own z: lines around the fluid's plane.
 class WallLattice {
  public:
-  WallLattice(const Box& box, Real spacing, Real h);
+  WallLattice(const Box& box, Real spacing, Real h, int dimensions = 3);
 
-  /// Calls f(q) for every boundary particle with ‖x − q‖ < h. x lies in the box.
+  /// Calls f(q) for every boundary particle with ‖x − q‖ < h. x lies between the walls.
   template <class F>
   void for_each_near(const Vec3& x, F&& f) const {
-    if (((x - box_.lower).array() >= h_).all() && ((box_.upper - x).array() >= h_).all()) return;
+    if (((x - walls_.lower).array() >= h_).all() && ((walls_.upper - x).array() >= h_).all())
+      return;
     const std::array<Sites, 3> sites{sites_near(0, x[0]), sites_near(1, x[1]), sites_near(2, x[2])};
     const Real h2 = h_ * h_;
     for (int c = 0; c < sites[2].size; ++c) {
@@ -61,9 +62,9 @@ class WallLattice {
   [[nodiscard]] Sites sites_near(int axis, Real x) const;
   static Real square(Real a) { return a * a; }
 
-  Box box_;
+  Box walls_;  // infinite where there are none
   Real spacing_, h_;
-  int layers_;
+  int dimensions_, layers_;
   std::array<Index, 3> cells_{};
   Vec3 cell_size_;
 };

@@ -5,7 +5,7 @@ namespace {
 
 Calibration checked_calibration(const FluidParams& params) {
   validate(params);
-  return calibrate(params.kernel_in_force(), static_cast<double>(params.spacing),
+  return calibrate(params.kernel_in_force(), params.dimensions, static_cast<double>(params.spacing),
                    static_cast<double>(params.h()));
 }
 
@@ -20,14 +20,15 @@ Discretization::Discretization(const FluidParams& params, const std::optional<Bo
   if (!domain) return;
   validate(*domain);
   const Vec3 size = domain->upper - domain->lower;
-  if ((size.array() < params.spacing).any()) {
+  if ((size.array() < params.spacing).head(params.dimensions).any()) {
     throw InvalidParameter("domain: its size " + to_text(size) +
                            " m must be at least the spacing (" + to_text(params.spacing) +
-                           " m) on every axis");
+                           " m) on every axis" + (params.dimensions == 2 ? " but z" : ""));
   }
   const Vec3 radius = Vec3::Constant(params.spacing / 2);
-  centers = Box{.lower = domain->lower + radius, .upper = domain->upper - radius};
-  walls.emplace(*domain, params.spacing, h);
+  centers = Box{.lower = domain->lower + radius, .upper = domain->upper - radius}.open_beyond(
+      params.dimensions);
+  walls.emplace(*domain, params.spacing, h, params.dimensions);
 }
 
 void Neighborhood::build(const CellGrid& grid,

@@ -13,19 +13,25 @@ struct Discretization {
   FluidParams fluid;
   std::optional<Box> domain;
   Real h;                  ///< support radius                                       [m]
-  Real V;                  ///< particle volume on the rest lattice                  [m³]
+  Real V;                  ///< particle volume on the rest lattice       [m³, in 2-D m²]
   Real ideal_denominator;  ///< D_ideal: Σ_k ‖∇_k C‖² on the rest lattice            [1/m²]
   Real largest_eigenvalue;  ///< of the iteration's matrix on the rest lattice        [–]
   std::optional<WallLattice> walls;
-  /// Where particle centers may be: the domain less half a spacing on every side, the radius of a
-  /// particle. The solver's wall pressure is half of what a mirrored neighbor would give (λ_k is
-  /// not there to add), so left to itself the first layer would settle a quarter of a spacing
-  /// closer to the wall than on the rest lattice, and the fluid would lose that volume.
+  /// Where particle centers may be: the domain less half a spacing from every wall, the radius of a
+  /// particle; infinite along axes without walls. The solver's wall pressure is half of what a
+  /// mirrored neighbor would give (λ_k is not there to add), so left to itself the first layer
+  /// would settle a quarter of a spacing closer to the wall than on the rest lattice, and the fluid
+  /// would lose that volume.
   std::optional<Box> centers;
 
   /// Throws InvalidParameter if the parameters break a rule or the domain is thinner than a
   /// particle.
   explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});
+
+  /// Whether a particle may be at x. In 2-D the plane may lie anywhere along z.
+  [[nodiscard]] bool contains(const Vec3& x) const {
+    return !domain || domain->open_beyond(fluid.dimensions).contains(x);
+  }
 };
 
 /// Who is near whom, in sorted order: found once per step at the predicted positions.

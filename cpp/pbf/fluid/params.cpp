@@ -11,6 +11,9 @@ void FluidParams::check_together(Faults& faults) const {
   if (!range.contains(static_cast<double>(h()))) {
     faults.add("support_radius", h(), "m", range.text() + " (1.2 to 4 times the spacing)");
   }
+  if (dimensions == 2 && gravity[2] != 0) {
+    faults.add("gravity", gravity, "m/s^2", "z must be 0 in 2-D (dimensions = 2)");
+  }
 }
 
 void SolverParams::check_together(Faults& faults) const {

@@ -14,6 +14,7 @@ struct FluidParams {
   Real rest_density = 1000.0F;
   Vec3 gravity{0.0F, -9.81F, 0.0F};
   std::optional<KernelChoice> kernel = std::nullopt;
+  int dimensions = 3;
 
   /// The support radius h in force [m].
   [[nodiscard]] Real h() const { return support_radius.value_or(2.0F * spacing); }
@@ -42,6 +43,11 @@ struct FluidParams {
             "they are no gradient of one thing, and fluid at rest simmers. cubic_spline, wendland: "
             "one kernel for both; it comes to rest. wendland if not given, poly6_spiky with the "
             "plain method."},
+        Field{
+            "dimensions", &FluidParams::dimensions, "", between(2, 3),
+            "3: the fluid fills space. 2: it flows in a plane of constant z, with the kernels and "
+            "the rest lattice of the plane; z of the gravity must be 0, and the domain has walls "
+            "in x and y only."},
     };
   }
   void check_together(Faults& faults) const;

@@ -27,7 +27,7 @@ ParticleFields::ParticleFields(const PointsView& positions, Real h, const Option
   }
   if (options_.volume == 0) {
     const double radius = static_cast<double>(h);
-    options_.volume = static_cast<Real>(calibrate(options.kernel, radius / 2, radius).volume);
+    options_.volume = static_cast<Real>(calibrate(options.kernel, 3, radius / 2, radius).volume);
   }
   if (!positions.allFinite()) throw InvalidParameter("positions: must be finite");
   grid_.build(records_of(positions), h, options.num_threads);
@@ -38,7 +38,7 @@ ParticleFields::ParticleFields(const PointsView& positions, Real h, const Option
 /// Calls f(sample, k, i) for the particle at place k of the cell order, which is i outside.
 template <class F>
 void ParticleFields::at_each(F&& f) const {
-  with_kernel(options_.kernel, h_, [&](const auto& kernel) {
+  with_kernel(options_.kernel, 3, h_, [&](const auto& kernel) {
     const FieldSample sample{x_, near_, kernel, options_.volume};
     parallel_for(size(), options_.num_threads, [&](Index k) {
       f(sample, k, static_cast<Index>(grid_.order()[static_cast<std::size_t>(k)]));

@@ -7,8 +7,8 @@
 namespace pbf {
 
 /// A cloud of particles on which fields are differentiated: sorted and searched once, used for many
-/// fields. The formulas are in field_operators.hpp; arrays go in and come out in the order of the
-/// positions.
+/// fields; always in space, even if the particles lie in a plane. The formulas are in
+/// field_operators.hpp; arrays go in and come out in the order of the positions.
 class ParticleFields {
  public:
   struct Options {

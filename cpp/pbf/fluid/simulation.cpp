@@ -65,7 +65,8 @@ Ids Simulation::add_particles(const PointsView& positions,
       throw InvalidParameter("velocities: " + particle_text(*velocities, i) +
                              " m/s; must be finite");
     }
-    if (disc_.domain && !disc_.domain->contains(x)) {
+    if (disc_.fluid.dimensions == 2) require_plane(positions, velocities, i);
+    if (!disc_.contains(x)) {
       throw InvalidParameter("positions: " + particle_text(positions, i) +
                              " m is outside the domain; must be within " +
                              to_text(disc_.domain->lower) + " and " + to_text(disc_.domain->upper) +
@@ -93,6 +94,21 @@ Ids Simulation::add_particles(const PointsView& positions,
   }
   state_ = std::move(state);
   return consecutive(before, added);
+}
+
+/// In 2-D all particles lie in the plane of the first one, and stay there.
+void Simulation::require_plane(const PointsView& positions,
+                               const std::optional<Points>& velocities,
+                               Index i) const {
+  const Real plane = size() > 0 ? state_.x[0].z : positions(2, 0);
+  if (positions(2, i) != plane) {
+    throw InvalidParameter("positions: " + particle_text(positions, i) + " m; z must be " +
+                           to_text(plane) + " m, that of the first particle, in 2-D");
+  }
+  if (velocities && (*velocities)(2, i) != 0) {
+    throw InvalidParameter("velocities: " + particle_text(*velocities, i) +
+                           " m/s; z must be 0 in 2-D");
+  }
 }
 
 StepReport Simulation::step(Real dt) {

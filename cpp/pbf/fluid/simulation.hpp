@@ -21,8 +21,9 @@ class Simulation {
                       const std::optional<Box>& domain = {});
 
   /// Copies particles in, at rest if no velocities are given. Returns their ids, consecutive
-  /// numbers. Throws InvalidParameter if a value is not finite, a position outside the domain, or
-  /// the counts differ.
+  /// numbers. Throws InvalidParameter if a value is not finite, a position outside the domain, in
+  /// 2-D also outside the plane of the first particle, or a velocity out of that plane, or if the
+  /// counts differ.
   Ids add_particles(const PointsView& positions, const std::optional<Points>& velocities = {});
 
   /// One time step of dt seconds: Algorithm 1 of [MM13]. Throws InvalidParameter unless dt is
@@ -57,6 +58,9 @@ class Simulation {
   void set_solver(const SolverParams& solver);
 
  private:
+  void require_plane(const PointsView& positions,
+                     const std::optional<Points>& velocities,
+                     Index i) const;
   void sort_by_cell();
   void iterate_plain(StepReport& report);
   void iterate_pressure(Real dt, StepReport& report);

@@ -10,7 +10,8 @@ namespace pbf {
 /// the loops for the fluid's kernel and the lists' instruction set, VW is the kernel times V.
 template <class F>
 void sweep(const Neighborhood& near, const Discretization& disc, int threads, F&& f) {
-  with_kernel(disc.fluid.kernel_in_force(), disc.h, disc.V, [&](const auto& VW) {
+  const FluidParams& fluid = disc.fluid;
+  with_kernel(fluid.kernel_in_force(), fluid.dimensions, disc.h, disc.V, [&](const auto& VW) {
     const auto& loops = sweeps(VW, near.fluid.isa());
     parallel_chunks(near.fluid.size(), threads, kChunk, [&](Index first, Index last) {
       f(loops, VW, Stretch{first, last, near.fluid.view(first), near.boundary.view(first)});

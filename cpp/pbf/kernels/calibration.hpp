@@ -4,10 +4,10 @@
 
 namespace pbf {
 
-/// What makes a block sampled on the cubic lattice of spacing d rest at C = 0, for any kernel and
-/// any h/d.
+/// What makes a block sampled on the cubic lattice of spacing d, in a plane the square one, rest at
+/// C = 0, for any kernel and any h/d.
 struct Calibration {
-  double volume = 0;  ///< V = 1 / Σ_lattice W, the particle's share of space            [m³]
+  double volume = 0;  ///< V = 1 / Σ_lattice W, the particle's share of space    [m³, m² in a plane]
   double ideal_denominator =
       0;  ///< D_ideal = Σ_k ‖∇_k C‖² on the lattice, scale of all multipliers [1/m²]
   /// Of the matrix that takes multipliers to the change of C they make, each row divided by its
@@ -19,6 +19,6 @@ struct Calibration {
 
 /// Sums over the lattice points within h of one of them. Throws InvalidParameter unless 0 < spacing
 /// < h.
-Calibration calibrate(KernelChoice choice, double spacing, double h);
+Calibration calibrate(KernelChoice choice, int dimensions, double spacing, double h);
 
 }  // namespace pbf

@@ -9,14 +9,18 @@ namespace pbf {
 /// Cubic spline [Mon92] with support h, one kernel for densities and gradients.
 ///   W(r)  = 8/(π h³) { 6(q³ − q²) + 1 for q ≤ ½;  2(1 − q)³ for q ≤ 1 }       [1/m³]
 ///   dW/dr = 48/(π h⁴) { q(3q − 2);  −(1 − q)² }                               [1/m⁴]
-/// with q = ‖r‖/h, zero beyond. Both may be given a factor, such as a volume.
+/// with q = ‖r‖/h, zero beyond. In a plane the constants are 40/(7π h²) [1/m²] and 240/(7π h³)
+/// [1/m³], so that W integrates to one over it. Both may be given a factor, such as a volume.
 template <class T>
 struct CubicSpline {
   T h;
 
-  explicit CubicSpline(T support_radius, T factor = 1) : h(support_radius) {
+  explicit CubicSpline(T support_radius, T factor = 1, int dimensions = 3) : h(support_radius) {
+    using std::numbers::pi;
     const double radius = static_cast<double>(h);
-    const double W0 = static_cast<double>(factor) * 8 / (std::numbers::pi * std::pow(radius, 3));
+    const double W0 =
+        static_cast<double>(factor) *
+        (dimensions == 2 ? 40 / (7 * pi * std::pow(radius, 2)) : 8 / (pi * std::pow(radius, 3)));
     per_h_ = static_cast<T>(1 / radius);
     W0_ = static_cast<T>(W0);
     slope0_ = static_cast<T>(6 * W0 / (radius * radius));

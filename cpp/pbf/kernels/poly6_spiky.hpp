@@ -9,9 +9,10 @@ namespace pbf {
 /// The pair of kernels of Position Based Fluids [MM13], after [MCG03].
 ///   W(r)  = 315/(64 π h³) (1 − q²)³          poly6, for densities              [1/m³]
 ///   ∇W(r) = −45/(π h⁴) (1 − q)² r/‖r‖        gradient of spiky, for gradients  [1/m⁴]
-/// with q = ‖r‖/h ≤ 1, both zero beyond. The gradient has no direction at r = 0 and is the zero
-/// vector there. ∇W is not the derivative of this W: spiky keeps close particles apart where
-/// poly6's own gradient vanishes.
+/// In a plane the constants are 4/(π h²) and −30/(π h³), so that both integrate to one over it, and
+/// the units 1/m² and 1/m³. Everywhere q = ‖r‖/h ≤ 1, both are zero beyond, and the gradient, which
+/// has no direction at r = 0, is the zero vector there. ∇W is not the derivative of this W: spiky
+/// keeps close particles apart where poly6's own gradient vanishes.
 ///
 /// Both may be given a factor, such as a volume. It and the constants before the powers stand
 /// inside the powers, where they cost nothing: 315/(64 π h³) (1 − q²)³ = (a − a q²)³.
@@ -19,12 +20,15 @@ template <class T>
 struct Poly6Spiky {
   T h;
 
-  explicit Poly6Spiky(T support_radius, T factor = 1) : h(support_radius) {
+  explicit Poly6Spiky(T support_radius, T factor = 1, int dimensions = 3) : h(support_radius) {
+    using std::numbers::pi;
     const double radius = static_cast<double>(h);
-    const double a =
-        std::cbrt(static_cast<double>(factor) * 315 / (64 * std::numbers::pi)) / radius;
-    const double b =
-        std::sqrt(static_cast<double>(factor) * 45 / std::numbers::pi) / (radius * radius);
+    const double W0 =
+        dimensions == 2 ? 4 / (pi * std::pow(radius, 2)) : 315 / (64 * pi * std::pow(radius, 3));
+    const double grad0 =
+        dimensions == 2 ? 30 / (pi * std::pow(radius, 3)) : 45 / (pi * std::pow(radius, 4));
+    const double a = std::cbrt(static_cast<double>(factor) * W0);
+    const double b = std::sqrt(static_cast<double>(factor) * grad0);
     a_ = static_cast<T>(a);
     a_per_h2_ = static_cast<T>(a / (radius * radius));
     b_ = static_cast<T>(b);

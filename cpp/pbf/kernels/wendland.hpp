@@ -9,16 +9,19 @@ namespace pbf {
 /// Wendland's C2 function [Wen95] with support h, one kernel for densities and gradients.
 ///   W(r)  = 21/(2 π h³) (1 − q)⁴ (1 + 4 q)       [1/m³]
 ///   dW/dr = −210/(π h⁴) q (1 − q)³               [1/m⁴]
-/// with q = ‖r‖/h, zero beyond. Its Fourier transform is positive, so that particles do not pair up
-/// [DA12]. Both may be given a factor, such as a volume.
+/// with q = ‖r‖/h, zero beyond. In a plane the constants are 7/(π h²) [1/m²] and 140/(π h³) [1/m³],
+/// so that W integrates to one over it. Its Fourier transform is positive, so that particles do not
+/// pair up [DA12]. Both may be given a factor, such as a volume.
 template <class T>
 struct Wendland {
   T h;
 
-  explicit Wendland(T support_radius, T factor = 1) : h(support_radius) {
+  explicit Wendland(T support_radius, T factor = 1, int dimensions = 3) : h(support_radius) {
+    using std::numbers::pi;
     const double radius = static_cast<double>(h);
     const double W0 =
-        static_cast<double>(factor) * 21 / (2 * std::numbers::pi * std::pow(radius, 3));
+        static_cast<double>(factor) *
+        (dimensions == 2 ? 7 / (pi * std::pow(radius, 2)) : 21 / (2 * pi * std::pow(radius, 3)));
     per_h_ = static_cast<T>(1 / radius);
     W0_ = static_cast<T>(W0);
     slope0_ = static_cast<T>(20 * W0 / (radius * radius));

@@ -8,10 +8,11 @@ namespace pbf {
 /// half a spacing inside lower, as many as fit. A side that is a multiple of the spacing holds that
 /// many layers exactly; the rest of another side stays empty at its upper end. Throws
 /// InvalidParameter unless spacing > 0 and upper >= lower, all finite, and if the count would pass
-/// 2^31.
-Points block(const Vec3& lower, const Vec3& upper, Real spacing);
+/// 2^31. In 2 dimensions: one layer of the square lattice in x and y, at the z midway.
+Points block(const Vec3& lower, const Vec3& upper, Real spacing, int dimensions = 3);
 
-/// The lattice points within `radius` of `center`; the center lies in the middle of a lattice cell.
-Points ball(const Vec3& center, Real radius, Real spacing);
+/// The lattice points within `radius` of `center`; the center lies in the middle of a lattice cell,
+/// in 2 dimensions in the plane of the layer.
+Points ball(const Vec3& center, Real radius, Real spacing, int dimensions = 3);
 
 }  // namespace pbf

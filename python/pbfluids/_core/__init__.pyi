@@ -47,6 +47,7 @@ class FluidParams:
         rest_density: float = ...,
         gravity: collections.abc.Sequence[float] = ...,
         kernel: str | None = ...,
+        dimensions: int = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -57,6 +58,13 @@ class FluidParams:
         """
         A copy with some fields changed.
         """
+    @property
+    def dimensions(self) -> int:
+        """
+        3: the fluid fills space. 2: it flows in a plane of constant z, with the kernels and the rest lattice of the plane; z of the gravity must be 0, and the domain has walls in x and y only.
+        """
+    @dimensions.setter
+    def dimensions(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def gravity(self) -> tuple[float, float, float]:
         """
@@ -855,6 +863,7 @@ def ball(
     ],
     radius: typing.SupportsFloat | typing.SupportsIndex,
     spacing: typing.SupportsFloat | typing.SupportsIndex,
+    dimensions: typing.SupportsInt | typing.SupportsIndex = 3,
 ) -> numpy.typing.NDArray[numpy.float32]: ...
 def block(
     lower: typing.Annotated[
@@ -864,6 +873,7 @@ def block(
         collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
     ],
     spacing: typing.SupportsFloat | typing.SupportsIndex,
+    dimensions: typing.SupportsInt | typing.SupportsIndex = 3,
 ) -> numpy.typing.NDArray[numpy.float32]: ...
 def build_info() -> dict[str, str]:
     """

@@ -52,7 +52,7 @@ TEST_CASE("wall lattice: a full box is at rest density up to walls, edges and co
   const Box box{.lower = {0, 0, 0}, .upper = {0.5F, 0.5F, 0.5F}};
   const WallLattice lattice(box, kSpacing, kH);
   const Points x = block(box.lower, box.upper, kSpacing);
-  const double V = calibrate(KernelChoice::poly6_spiky, kSpacing, kH).volume;
+  const double V = calibrate(KernelChoice::poly6_spiky, 3, kSpacing, kH).volume;
   const Poly6Spiky<double> kernel(kH);
   for (Index i = 0; i < x.cols(); ++i) {
     double sum = 0;

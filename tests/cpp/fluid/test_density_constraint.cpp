@@ -46,8 +46,8 @@ const Vec3 kOrigin = Vec3::Zero();
 TEST_CASE(
     "density constraint: a lattice block that fills its tank is at rest, for each kernel and "
     "support") {
-  for (const KernelChoice kernel : {KernelChoice::poly6_spiky, KernelChoice::cubic_spline,
-                                    KernelChoice::wendland}) {
+  for (const KernelChoice kernel :
+       {KernelChoice::poly6_spiky, KernelChoice::cubic_spline, KernelChoice::wendland}) {
     for (const Real ratio : {1.5F, 2.0F, 2.5F, 3.0F}) {
       CAPTURE(ratio);
       const FluidParams fluid{.spacing = 0.05F, .support_radius = ratio * 0.05F, .kernel = kernel};

@@ -32,10 +32,20 @@ TEST_CASE("ball: holds the volume of a ball") {
   CHECK(static_cast<double>(x.cols()) * 8e-6 == doctest::Approx(0.5236).epsilon(0.01));
 }
 
+TEST_CASE("shapes: in 2-D one layer, midway between the corners or through the center") {
+  const Points x = block({0, 0, 1}, {0.6F, 0.8F, 2}, 0.1F, 2);
+  CHECK(x.cols() == 6 * 8);
+  CHECK((x.row(2).array() == 1.5F).all());
+  const Points disk = ball({1, 2, 0.3F}, 0.5F, 0.02F, 2);
+  CHECK((disk.row(2).array() == 0.3F).all());
+  CHECK(static_cast<double>(disk.cols()) * 4e-4 == doctest::Approx(0.7854).epsilon(0.01));
+}
+
 TEST_CASE("shapes: what breaks a rule is refused before memory is asked for") {
   CHECK_THROWS_AS(block({0, 0, 0}, {1, 1, 1}, 0), InvalidParameter);
   CHECK_THROWS_AS(block({0, 0, 0}, {1, -1, 1}, 0.1F), InvalidParameter);
   CHECK_THROWS_AS(block({0, 0, 0}, {1e6F, 1e6F, 1e6F}, 1e-3F), InvalidParameter);
+  CHECK_THROWS_AS(block({0, 0, 0}, {1, 1, 1}, 0.1F, 1), InvalidParameter);
   CHECK_THROWS_AS(ball({0, 0, 0}, std::numeric_limits<Real>::infinity(), 0.1F), InvalidParameter);
 }
 
