@@ -14,7 +14,7 @@ V volume [m^3], W kernel [1/m^3], grad_W [1/m^4], C constraint [-], multipliers 
 from __future__ import annotations
 
 from reference import operators
-from reference.boundary import boundary_lattice, centers, project
+from reference.boundary import boundary_lattice, centers, nearest_image, project, wrap
 from reference.calibration import calibration, lattice
 from reference.kernels import cubic_spline, cubic_spline_gradient, kernel, poly6, spiky_gradient
 from reference.neighbors import Neighbors, find_neighbors, pairs_within
@@ -47,6 +47,7 @@ __all__ = [
     "kernel",
     "lattice",
     "multipliers",
+    "nearest_image",
     "operators",
     "pairs_within",
     "poly6",
@@ -55,5 +56,6 @@ __all__ = [
     "spiky_gradient",
     "step",
     "vorticity",
+    "wrap",
     "xsph",
 ]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.boundary import centers, project
+from reference.boundary import centers, project, wrap
 from reference.calibration import calibration
 from reference.kernels import kernel
 from reference.neighbors import Neighbors, find_neighbors
@@ -89,7 +89,7 @@ def corrections(
 def vorticity(x: Array, v: Array, near: Neighbors, fluid: Fluid) -> Array:
     """omega_i = V sum_j (v_j - v_i) x grad_j W(x_i - x_j)  [1/s], with grad_j W = -grad W_ij."""
     volume, _ = calibration(fluid)
-    _, grad_W = kernel(fluid, x[near.i] - x[near.j])
+    _, grad_W = kernel(fluid, near.r(x))
     return volume * near.sum(np.cross(v[near.j] - v[near.i], -grad_W))
 
 
@@ -108,7 +108,7 @@ def confine(
     N is 0 where eta is no more than rounding: |eta| h <= 1e-4 |omega_i|.
     """
     volume, _ = calibration(fluid)
-    _, grad_W = kernel(fluid, x[near.i] - x[near.j])
+    _, grad_W = kernel(fluid, near.r(x))
     size = np.linalg.norm(omega, axis=1)
     eta = volume * near.sum(size[near.j, None] * grad_W)
     eta_size = np.linalg.norm(eta, axis=1)
@@ -120,12 +120,15 @@ def confine(
 def xsph(x: Array, v: Array, near: Neighbors, fluid: Fluid, strength: float) -> Array:
     """v_i <- v_i + strength V sum_j (v_j - v_i) W_ij, every v on the right the old one."""
     volume, _ = calibration(fluid)
-    W, _ = kernel(fluid, x[near.i] - x[near.j])
+    W, _ = kernel(fluid, near.r(x))
     return v + strength * volume * near.sum((v[near.j] - v[near.i]) * W[:, None])
 
 
 def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float) -> State:
-    """One time step: predict, neighbors once, iterate, velocity, vorticity, XSPH, commit."""
+    """One time step: predict, neighbors once, iterate, velocity, vorticity, XSPH, commit.
+
+    Along periodic axes neighbors are images, so x* may leave the box until the step has ended.
+    """
     v, x_star = predict(state.x, state.v, fluid, box, dt)
     near = find_neighbors(x_star, fluid, box)
     for _ in range(solver.iterations):
@@ -138,13 +141,13 @@ def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float)
         v = confine(x_star, v, omega, near, fluid, strength=solver.vorticity, dt=dt)
     if solver.xsph > 0.0:
         v = xsph(x_star, v, near, fluid, solver.xsph)
-    return State(x_star, v, densities, lambdas)
+    return State(wrap(x_star, box), v, densities, lambdas)
 
 
 def _pair_kernels(
     x_star: Array, near: Neighbors, fluid: Fluid
 ) -> tuple[Array, Array, Array, Array]:
     """W_ij, grad W_ij over the fluid pairs, and W_ik, grad W_ik over the boundary pairs."""
-    W, grad_W = kernel(fluid, x_star[near.i] - x_star[near.j])
-    W_q, grad_W_q = kernel(fluid, x_star[near.boundary_i] - near.q[near.boundary_k])
+    W, grad_W = kernel(fluid, near.r(x_star))
+    W_q, grad_W_q = kernel(fluid, near.r_boundary(x_star))
     return W, grad_W, W_q, grad_W_q

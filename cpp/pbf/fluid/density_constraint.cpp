@@ -46,6 +46,7 @@ void solve_multipliers(const Neighborhood& near,
   sweep(near, disc, solver.num_threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
     loops.multipliers(VW, at, epsilon, solver.constraint_floor, x_star.data(), x_lambda.data());
   });
+  near.ghosts.refresh_positions(x_lambda, solver.num_threads);
 }
 
 void apply_corrections(const Neighborhood& near,
@@ -60,6 +61,7 @@ void apply_corrections(const Neighborhood& near,
     loops.corrections(VW, at, tensile_terms(VW, disc, solver), centers, x_lambda.data(), x.data(),
                       x_star.data(), u.data());
   });
+  near.ghosts.refresh_positions(x_star, solver.num_threads);
 }
 
 }  // namespace pbf
