@@ -43,7 +43,7 @@ def range_of(field: dict[str, Any]) -> str:
     """Write the allowed values, in the notation of intervals."""
     if field["choices"]:
         return ", ".join(f"`{choice}`" for choice in field["choices"])
-    if field["kind"] in {"bool", "string"}:
+    if field["kind"] in {"bool", "bool3", "string"}:
         return ""
     least, most = field["least"], field["most"]
     if math.isinf(least) and math.isinf(most):

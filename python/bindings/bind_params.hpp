@@ -88,6 +88,17 @@ struct PythonForm<T> {
     return result;
   }
 };
+template <>
+struct PythonForm<std::array<bool, 3>> {
+  using type = std::tuple<bool, bool, bool>;
+  static constexpr const char* kind = "bool3";
+  static constexpr const char* expected = "true or false three times";
+  static constexpr const char* annotation = "collections.abc.Sequence[bool]";
+  static type out(const std::array<bool, 3>& v) { return {v[0], v[1], v[2]}; }
+  static std::array<bool, 3> in(const type& v) {
+    return {std::get<0>(v), std::get<1>(v), std::get<2>(v)};
+  }
+};
 template <class T>
 struct PythonForm<std::optional<T>> {
   using type = std::optional<typename PythonForm<T>::type>;

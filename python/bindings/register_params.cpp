@@ -12,7 +12,7 @@ void register_params(py::module_& m) {
           "The support radius in force [m]: support_radius, or 2 * spacing.");
   bind_params<SolverParams>(
       m, "How the constraint is solved. The pure numbers mean the same at every resolution.");
-  bind_params<Box>(m, "An axis-aligned tank: particles stay in the closed box.", 2);
+  bind_params<Box>(m, "An axis-aligned tank: particles stay in the closed box.", 3);
 }
 
 }  // namespace pbf

@@ -6,6 +6,7 @@
 
 #include "bind_params.hpp"
 #include "numpy_io.hpp"
+#include <span>
 
 /// The solver's stages one by one, for tests against the plain reference and for teaching: arrays
 /// in, arrays out, particles in the order they come. Each call searches neighbors anew; a
@@ -22,18 +23,25 @@ struct Sorted {
   Neighborhood near;
 
   Sorted(const PointsView& positions, const Discretization& disc) {
-    grid.build(records_of(positions), disc.h, 0);
+    Records unsorted = records_of(positions);
+    near.sort(unsorted, disc, 0, grid);
     x = sort(positions);
-    near.build(grid, x, disc, 0);
+    near.build(grid, disc, 0, x);
+  }
+  /// Of the particles; ghosts stand behind them in records.
+  [[nodiscard]] std::span<const std::uint32_t> order() const {
+    return std::span(grid.order()).first(static_cast<std::size_t>(grid.particles()));
   }
   [[nodiscard]] Records sort(const PointsView& a) const {
-    return records_of(gathered(Points(a), grid.order()));
+    return records_of(gathered(Points(a), order()));
   }
   [[nodiscard]] py::array_t<float> unsort(const Records& sorted) const {
-    return points_to_numpy(scattered(points_of(sorted), grid.order()));
+    const Points points = points_of(sorted).leftCols(grid.particles());
+    return points_to_numpy(scattered(points, order()));
   }
   [[nodiscard]] py::array_t<float> unsort(const Scalars& sorted) const {
-    return scalars_to_numpy(scattered(sorted, grid.order()));
+    const Scalars scalars = sorted.head(grid.particles());
+    return scalars_to_numpy(scattered(scalars, order()));
   }
 };
 
@@ -86,7 +94,7 @@ py::tuple boundary_particles(const py::object& positions,
   const FloatArray array = points_array(positions, "positions");
   const Discretization disc(fluid, box);
   BoundaryList list;
-  list.build(disc.walls, records_of(points_view(array)), 4, 0);
+  list.build(disc.walls, records_of(points_view(array)), array.shape(0), 4, 0);
   std::vector<Vec3> sites;
   Ids offsets(array.shape(0) + 1);
   offsets[0] = 0;
@@ -141,8 +149,9 @@ py::array_t<float> corrections_stage(const py::object& x_star,
   Discretization disc(fluid, box);
   const Sorted sorted(points_view(x), disc);
   Records x_lambda = sorted.x;
-  for (Index k = 0; k < x_lambda.size(); ++k)
-    x_lambda[k].w = lambda.at(sorted.grid.order()[static_cast<std::size_t>(k)]);
+  for (Index k = 0; k < lambda.size(); ++k)
+    x_lambda[k].w = lambda.at(sorted.order()[static_cast<std::size_t>(k)]);
+  sorted.near.ghosts.refresh_positions(x_lambda, 0);
   // Without collision a particle that starts from no displacement ends with its correction.
   disc.centers.reset();
   Records moved(sorted.x.size()), dp(sorted.x.size());

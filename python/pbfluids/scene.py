@@ -208,7 +208,7 @@ class Scene:
     def domain(self) -> _core.Box | None:
         """The box that holds the fluid, None for open space."""
         domain = self._tables["domain"]
-        return _core.Box(domain["lower"], domain["upper"]) if domain else None
+        return _core.Box(**domain) if domain else None
 
     @property
     def camera(self) -> _core.Camera:

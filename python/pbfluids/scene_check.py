@@ -29,8 +29,8 @@ _RULES = {
     "model_type": "must be a table",
     "string_pattern_mismatch": "must be letters, digits, _ and - only",
     "string_type": "must be a string",
-    "too_long": "must have {max_length} numbers",
-    "too_short": "must have {min_length} numbers",
+    "too_long": "must have {max_length} values",
+    "too_short": "must have {min_length} values",
 }
 
 
@@ -63,9 +63,7 @@ def check(data: Mapping[str, Any]) -> tuple[SceneTables | None, list[str]]:
     items = list(_sound_items(data, wrong))
     if not items and not any(path[0] in ("blocks", "balls") for path in wrong):
         faults.append("blocks: missing, there is no fluid without [[blocks]] or [[balls]]")
-    fluid = structs["fluid"]
-    spacing, dimensions = (fluid.spacing, fluid.dimensions) if fluid else (None, 3)
-    faults += geometry_faults(items, _sound_domain(data, wrong), spacing, dimensions)
+    faults += geometry_faults(items, _sound_domain(data, wrong), structs["fluid"])
     return model, faults
 
 

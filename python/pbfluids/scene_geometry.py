@@ -62,8 +62,7 @@ class Shape:
 def geometry_faults(
     items: Sequence[tuple[str, Block | Ball]],
     domain: Domain | None,
-    spacing: float | None,
-    dimensions: int,
+    fluid: _core.FluidParams | None,
 ) -> Iterator[str]:
     """Check blocks and balls, given with their paths, against each other, domain and memory.
 
@@ -73,17 +72,16 @@ def geometry_faults(
         What holds fluid, with its path inside the scene.
     domain
         The box around it, None for open space.
-    spacing
-        Particle distance at rest [m]; None if it is not known, and then nothing that it decides
+    fluid
+        Its spacing and dimensions; None if they are not known, and then nothing that they decide
         is checked.
-    dimensions
-        3, or 2 for fluid in a plane.
 
     Yields
     ------
     str
         A line for each fault.
     """
+    spacing, dimensions = (fluid.spacing, fluid.dimensions) if fluid else (None, 3)
     shapes = []
     if dimensions == 2:
         yield from _plane_faults(items, spacing or 0.0)
@@ -94,7 +92,9 @@ def geometry_faults(
     tolerance = 1e-3 * (spacing or 0.0)
     if domain is not None:
         try:
-            _core.Box(domain.lower, domain.upper)
+            box = _core.Box(**domain.model_dump())
+            if fluid is not None:
+                _core.Simulation(fluid, _core.SolverParams(), box)  # looks whether they fit
         except InvalidParameter as error:
             yield from str(error).replace("Box.", "domain.").splitlines()
         else:

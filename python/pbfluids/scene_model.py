@@ -17,7 +17,7 @@ from pbfluids import _core
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
-
+Axes = Annotated[list[bool], Field(min_length=3, max_length=3)]
 
 ParameterStruct = (
     type[_core.FluidParams]
@@ -113,6 +113,10 @@ class Domain(Table):
 
     lower: Vec3 = Field(description="Corner of the least coordinates [m].")
     upper: Vec3 = Field(description="Corner of the greatest coordinates [m].")
+    periodic: Axes = Field(
+        [False, False, False],
+        description="Axes without walls: what leaves there comes in at the opposite face.",
+    )
 
 
 class Block(Table):

@@ -94,12 +94,14 @@ class Simulation:
     solver : SolverParams, optional
         How the constraint is solved.
     domain : Box, optional
-        The tank; without it space is open.
+        The tank; without it space is open. Along its periodic axes there are no walls, and a period
+        is at least two support radii.
 
     Raises
     ------
     InvalidParameter
-        If a parameter breaks its rule, or the domain is thinner than the spacing.
+        If a parameter breaks its rule, or the domain is thinner than the spacing or, along a
+        periodic axis, than two support radii.
 
     References
     ----------
@@ -135,8 +137,9 @@ class Simulation:
         Parameters
         ----------
         positions : array_like, shape (n, 3)
-            [m], finite and within the domain. In 2-D all have the same z, that of the first
-            particle ever added, and z of the domain does not matter.
+            [m], finite and within the domain; what lies on the upper face of a periodic axis is
+            moved to the lower one, which is the same place. In 2-D all have the same z, that of the
+            first particle ever added, and z of the domain does not matter.
         velocities : array_like, shape (n, 3), optional
             [m/s], finite; in 2-D z is 0. At rest if not given.
 
@@ -223,7 +226,7 @@ class Simulation:
 
     @property
     def positions(self) -> NDArray[np.float32]:
-        """Positions, shape (n, 3) [m]."""
+        """Positions, shape (n, 3) [m]; along periodic axes in [lower, upper)."""
         return self._core.positions()
 
     @property

@@ -60,7 +60,7 @@ def test_every_fault_is_listed_at_once_with_its_path(tiny):
         (("fluid",), "spacng", 'fluid.spacng: unknown, did you mean "spacing"?'),
         ((), "durration", 'durration: unknown, did you mean "duration"?'),
         ((), "iterations", 'iterations: unknown, did you mean "iterations" in [solver]?'),
-        (("domain",), "zzz", "domain.zzz: unknown, known here are lower, upper"),
+        (("domain",), "zzz", "domain.zzz: unknown, known here are lower, upper, periodic"),
     ],
 )
 def test_an_unknown_key_comes_with_the_name_that_was_meant(tiny, table, key, fault):
@@ -84,7 +84,7 @@ def test_an_unknown_key_comes_with_the_name_that_was_meant(tiny, table, key, fau
             {"fluid": {"kernel": "gauss"}},
             "fluid.kernel = \"gauss\": must be 'poly6_spiky', 'cubic_spline' or",
         ),
-        ({"fluid": {"gravity": [0, 1]}}, "fluid.gravity = [0, 1]: must have 3 numbers"),
+        ({"fluid": {"gravity": [0, 1]}}, "fluid.gravity = [0, 1]: must have 3 values"),
         ({"solver": {"substeps": 10**30}}, "solver.substeps = 1000000000"),
         ({"solver": {"substeps": 0}}, "solver.substeps = 0: must be finite, >= 1"),
         ({"blocks": []}, "blocks: missing"),

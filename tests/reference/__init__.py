@@ -16,7 +16,7 @@ V volume [m^3], W kernel [1/m^3], grad_W [1/m^4], C constraint [-], multipliers 
 from __future__ import annotations
 
 from reference import operators
-from reference.boundary import boundary_lattice, centers, project
+from reference.boundary import boundary_lattice, centers, nearest_image, project, wrap
 from reference.calibration import calibration, lattice
 from reference.density import corrections, density_constraint, multipliers
 from reference.kernels import (
@@ -59,6 +59,7 @@ __all__ = [
     "largest_eigenvalue",
     "lattice",
     "multipliers",
+    "nearest_image",
     "operators",
     "pairs_within",
     "poly6",
@@ -70,5 +71,6 @@ __all__ = [
     "vorticity",
     "wendland",
     "wendland_gradient",
+    "wrap",
     "xsph",
 ]

@@ -72,6 +72,6 @@ def _pair_kernels(
     x_star: Array, near: Neighbors, fluid: Fluid
 ) -> tuple[Array, Array, Array, Array]:
     """W_ij, grad W_ij over the fluid pairs, and W_ik, grad W_ik over the boundary pairs."""
-    W, grad_W = kernel(fluid, x_star[near.i] - x_star[near.j])
-    W_q, grad_W_q = kernel(fluid, x_star[near.boundary_i] - near.q[near.boundary_k])
+    W, grad_W = kernel(fluid, near.r(x_star))
+    W_q, grad_W_q = kernel(fluid, near.r_boundary(x_star))
     return W, grad_W, W_q, grad_W_q

@@ -19,17 +19,23 @@ def as_float32(value: Any) -> Array:
 
 @dataclass(frozen=True)
 class Box:
-    """The closed box lower <= x <= upper [m]."""
+    """The closed box lower <= x <= upper [m]; along a periodic axis it has no walls."""
 
     lower: Array
     upper: Array
+    periodic: tuple[bool, bool, bool] = (False, False, False)
+
+    @property
+    def period(self) -> Array:
+        """Distance of a particle's images per axis [m], infinite along an axis with walls."""
+        return np.where(self.periodic, np.subtract(self.upper, self.lower), np.inf)
 
     @classmethod
     def of(cls, box: Any) -> Box | None:
         """The same box as the library's, None for open space."""
         if box is None:
             return None
-        return cls(as_float32(box.lower), as_float32(box.upper))
+        return cls(as_float32(box.lower), as_float32(box.upper), box.periodic)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.boundary import centers, project
+from reference.boundary import centers, project, wrap
 from reference.calibration import calibration
 from reference.density import corrections, density_constraint, multipliers
 from reference.kernels import kernel
@@ -46,7 +46,7 @@ def predict(x: Array, v: Array, fluid: Fluid, box: Box | None, dt: float) -> tup
 def vorticity(x: Array, v: Array, near: Neighbors, fluid: Fluid) -> Array:
     """omega_i = V sum_j (v_j - v_i) x grad_j W(x_i - x_j)  [1/s], with grad_j W = -grad W_ij."""
     volume, _ = calibration(fluid)
-    _, grad_W = kernel(fluid, x[near.i] - x[near.j])
+    _, grad_W = kernel(fluid, near.r(x))
     return volume * near.sum(np.cross(v[near.j] - v[near.i], -grad_W))
 
 
@@ -65,7 +65,7 @@ def confine(
     N is 0 where eta is no more than rounding: |eta| h <= 1e-4 |omega_i|.
     """
     volume, _ = calibration(fluid)
-    _, grad_W = kernel(fluid, x[near.i] - x[near.j])
+    _, grad_W = kernel(fluid, near.r(x))
     size = np.linalg.norm(omega, axis=1)
     eta = volume * near.sum(size[near.j, None] * grad_W)
     eta_size = np.linalg.norm(eta, axis=1)
@@ -77,12 +77,15 @@ def confine(
 def xsph(x: Array, v: Array, near: Neighbors, fluid: Fluid, strength: float) -> Array:
     """v_i <- v_i + strength V sum_j (v_j - v_i) W_ij, every v on the right the old one."""
     volume, _ = calibration(fluid)
-    W, _ = kernel(fluid, x[near.i] - x[near.j])
+    W, _ = kernel(fluid, near.r(x))
     return v + strength * volume * near.sum((v[near.j] - v[near.i]) * W[:, None])
 
 
 def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float) -> State:
-    """One time step: predict, neighbors once, iterate, velocity, vorticity, XSPH, commit."""
+    """One time step: predict, neighbors once, iterate, velocity, vorticity, XSPH, commit.
+
+    Along periodic axes neighbors are images, so x* may leave the box until the step has ended.
+    """
     v, x_star = predict(state.x, state.v, fluid, box, dt)
     near = find_neighbors(x_star, fluid, box)
     if solver.method_in_force == "plain":
@@ -108,4 +111,4 @@ def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float)
         v = confine(x_star, v, omega, near, fluid, strength=solver.vorticity, dt=dt)
     if solver.xsph > 0.0:
         v = xsph(x_star, v, near, fluid, solver.xsph)
-    return State(x_star, v, densities, lambdas, totals, dt, iterations)
+    return State(wrap(x_star, box), v, densities, lambdas, totals, dt, iterations)

@@ -6,10 +6,11 @@ namespace pbf {
 
 void BoundaryList::build(const std::optional<WallLattice>& walls,
                          const Records& x,
+                         Index particles,
                          int lanes,
                          int threads) {
-  rows_.resize(x.size(), lanes);
-  parallel_chunks(x.size(), threads, kChunk, [&](Index first, Index last) {
+  rows_.resize(particles, lanes);
+  parallel_chunks(particles, threads, kChunk, [&](Index first, Index last) {
     rows_.chunk(first).ends.fill(0);
     if (walls) build_chunk(*walls, x, first, last);
   });

@@ -13,8 +13,13 @@ namespace pbf {
 class BoundaryList {
  public:
   /// Without walls every row is empty.
+  /// @param x      positions of the particles; ghosts may stand behind them
   /// @param lanes  particles in a slice
-  void build(const std::optional<WallLattice>& walls, const Records& x, int lanes, int threads);
+  void build(const std::optional<WallLattice>& walls,
+             const Records& x,
+             Index particles,
+             int lanes,
+             int threads);
 
   [[nodiscard]] std::size_t bytes() const { return rows_.bytes(); }
   [[nodiscard]] SliceView<Real> view(Index first) const { return rows_.view(first); }

@@ -5,16 +5,22 @@
 namespace pbf {
 
 WallLattice::WallLattice(const Box& box, Real spacing, Real h, int dimensions)
-    : walls_(box.open_beyond(dimensions)),
+    : walls_(
+          box.open_along({box.periodic[0], box.periodic[1], box.periodic[2] || dimensions == 2})),
       spacing_(spacing),
       h_(h),
       dimensions_(dimensions),
-      layers_(static_cast<int>(std::ceil(h / spacing))) {
+      layers_(static_cast<int>(std::ceil(h / spacing))),
+      first_cell_(box.lower) {
   for (int axis = 0; axis < dimensions; ++axis) {
     const double length =
         static_cast<double>(box.upper[axis]) - static_cast<double>(box.lower[axis]);
     cells_[axis] = std::max<Index>(1, std::llround(length / static_cast<double>(spacing)));
     cell_size_[axis] = static_cast<Real>(length / static_cast<double>(cells_[axis]));
+    if (!box.periodic[static_cast<std::size_t>(axis)]) continue;
+    const auto beyond = static_cast<Index>(std::ceil(h / cell_size_[axis])) + 1;
+    cells_[axis] += 2 * beyond;
+    first_cell_[axis] -= static_cast<Real>(beyond) * cell_size_[axis];
   }
 }
 
@@ -38,13 +44,14 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
   }
   sites.first_inside = sites.size;
   const Real size = cell_size_[axis];
+  const Real from_first = x - first_cell_[axis];
   // Casts cut off, which from zero on is floor; one site too many is not near.
   const Real half = size / 2;
-  const Index first = std::max<Index>(0, static_cast<Index>((from_lower - h_ - half) / size));
+  const Index first = std::max<Index>(0, static_cast<Index>((from_first - h_ - half) / size));
   const Index last =
-      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_lower + h_ + half) / size));
+      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_first + h_ + half) / size));
   for (Index k = first; k <= last; ++k) {
-    add_if_near(walls_.lower[axis] + (static_cast<Real>(k) + 0.5F) * size);
+    add_if_near(first_cell_[axis] + (static_cast<Real>(k) + 0.5F) * size);
   }
   sites.end_inside = sites.size;
   if (to_upper < h_) {

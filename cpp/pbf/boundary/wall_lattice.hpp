@@ -14,12 +14,13 @@ namespace pbf {
 /// On each axis the sites are  lower − (k + ½) d  and  upper + (k + ½) d  outside, k = 0 …
 /// ceil(h/d) − 1, and the centers of round(L/d) equal cells inside, so that the lattice fits both
 /// walls. The boundary particles are all combinations of three coordinates but those with all three
-/// inside. In 2-D the only site along z is the particle's own z: lines around the fluid's plane.
+/// inside. A periodic axis has no walls, and the cells inside go on beyond its faces. In 2-D the
+/// only site along z is the particle's own z: lines around the fluid's plane.
 class WallLattice {
  public:
   WallLattice(const Box& box, Real spacing, Real h, int dimensions = 3);
 
-  /// Calls f(q) for every boundary particle with ‖x − q‖ < h. x lies between the walls.
+  /// Calls f(q) for every boundary particle with ‖x − q‖ < h. x lies in the box.
   template <class F>
   void for_each_near(const Vec3& x, F&& f) const {
     if (((x - walls_.lower).array() >= h_).all() && ((walls_.upper - x).array() >= h_).all())
@@ -66,7 +67,7 @@ class WallLattice {
   Real spacing_, h_;
   int dimensions_, layers_;
   std::array<Index, 3> cells_{};
-  Vec3 cell_size_;
+  Vec3 first_cell_, cell_size_;
 };
 
 }  // namespace pbf

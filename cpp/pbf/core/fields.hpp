@@ -102,7 +102,8 @@ std::string to_text(const T& value) {
     out << '"' << value << '"';
   } else if constexpr (VectorField<T>) {
     out << '(';
-    for (int k = 0; k < static_cast<int>(value.size()); ++k) out << (k > 0 ? ", " : "") << value[k];
+    for (int k = 0; k < static_cast<int>(value.size()); ++k)
+      out << (k > 0 ? ", " : "") << to_text(value[k]);
     out << ')';
   } else {
     out << value;

@@ -47,6 +47,7 @@ void solve_multipliers(const Neighborhood& near,
     loops.multipliers(VW, at, epsilon, solver.constraint_floor_in_force(), x_star.data(),
                       x_lambda.data());
   });
+  near.ghosts.refresh_positions(x_lambda, solver.num_threads);
 }
 
 void apply_corrections(const Neighborhood& near,
@@ -61,6 +62,7 @@ void apply_corrections(const Neighborhood& near,
     loops.corrections(VW, at, tensile_terms(VW, disc, solver), centers, x_lambda.data(), x.data(),
                       x_star.data(), u.data());
   });
+  near.ghosts.refresh_positions(x_star, solver.num_threads);
 }
 
 }  // namespace pbf

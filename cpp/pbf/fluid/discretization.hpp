@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pbf/boundary/boundary_list.hpp"
+#include "pbf/boundary/ghosts.hpp"
 #include "pbf/core/types.hpp"
 #include "pbf/fluid/params.hpp"
 #include "pbf/kernels/calibration.hpp"
@@ -24,23 +25,27 @@ struct Discretization {
   /// would lose that volume.
   std::optional<Box> centers;
 
-  /// Throws InvalidParameter if the parameters break a rule or the domain is thinner than a
-  /// particle.
+  /// Throws InvalidParameter if the parameters break a rule, or the domain is thinner than a
+  /// particle or than two support radii along a periodic axis.
   explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});
 
   /// Whether a particle may be at x. In 2-D the plane may lie anywhere along z.
   [[nodiscard]] bool contains(const Vec3& x) const {
-    return !domain || domain->open_beyond(fluid.dimensions).contains(x);
+    return !domain || domain->open_along({false, false, fluid.dimensions == 2}).contains(x);
   }
 };
 
 /// Who is near whom, in sorted order: found once per step at the predicted positions.
 struct Neighborhood {
+  Ghosts ghosts;
   NeighborList fluid;
   BoundaryList boundary;
 
-  /// @param grid  built from x before it was sorted
-  void build(const CellGrid& grid, const Records& x, const Discretization& disc, int threads);
+  /// Finds the grid's order of x, behind which the ghosts are put.
+  void sort(Records& x, const Discretization& disc, int threads, CellGrid& grid);
+  /// @param grid  of the sort
+  /// @param x     the particles in its order; the ghosts are put behind them
+  void build(const CellGrid& grid, const Discretization& disc, int threads, Records& x);
 };
 
 }  // namespace pbf

@@ -36,6 +36,7 @@ void predict(const Records& x,
     x_star[i] = to;
     u[i] = way;
   });
+  wrap(disc.domain, x_star, threads);
 }
 
 void update_velocity(const Records& u, Real dt, int threads, Records& v) {

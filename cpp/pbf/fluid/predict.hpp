@@ -5,8 +5,9 @@
 namespace pbf {
 
 /// x* = project(x + dt (v + dt g)): where each particle would be without the others, moved out of
-/// the walls. Algorithm 1, lines 1–4 [MM13]. v itself is not changed: the velocity update reads the
-/// displacement u = x* − x only.
+/// the walls, and along periodic axes back into the domain, of which u knows nothing. Algorithm 1,
+/// lines 1–4 [MM13]. v itself is not changed: the velocity update reads the displacement u = x* − x
+/// only.
 ///
 /// u is kept beside x* and added up from its parts. The difference of the positions would carry
 /// their rounding into the velocities, EPS ‖x‖/dt, alike for all particles that share a coordinate:

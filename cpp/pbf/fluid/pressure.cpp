@@ -20,7 +20,8 @@ PressureErrors& PressureErrors::operator+=(const PressureErrors& other) {
   return *this;
 }
 
-void PressureSolve::begin(const Records& x_star,
+void PressureSolve::begin(const Neighborhood& near,
+                          const Records& x_star,
                           const Records& v_density,
                           const std::vector<Real>& totals,
                           Real share,
@@ -29,17 +30,18 @@ void PressureSolve::begin(const Records& x_star,
                           int threads,
                           Records& x_delta) {
   t_ = 1;
-  states_.resize(x_star.size());
+  states_.resize(near.fluid.size());
   x_delta.resize(x_star.size());
   // p = −ρ0 Λ/Δt² stays.
   const Real scale = last_dt > 0 ? share * (dt / last_dt) * (dt / last_dt) : 0;
-  parallel_for(x_star.size(), threads, [&](Index i) {
+  parallel_for(states_.size(), threads, [&](Index i) {
     const bool free = v_density[i].w < kFreeDensity;
     const Real start = free ? 0 : scale * totals[static_cast<std::size_t>(i)];
     states_[i] = {start, start, 0, 0};
     const Record& x = x_star[i];
     x_delta[i] = {x.x, x.y, x.z, start};
   });
+  near.ghosts.refresh_positions(x_delta, threads);
 }
 
 PressureErrors PressureSolve::iterate(const Neighborhood& near,
@@ -60,10 +62,12 @@ PressureErrors PressureSolve::iterate(const Neighborhood& near,
   sweep(near, disc, solver.num_threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
     loops.pressures(VW, at, terms, x_star.data(), states_.data(), x_delta.data());
   });
-  const auto errors = parallel_sum<PressureErrors>(x_star.size(), solver.num_threads, [&](Index i) {
-    const auto r = static_cast<double>(std::max(states_[i].z, Real(0)));
-    return PressureErrors{r, r, static_cast<double>(states_[i].w)};
-  });
+  near.ghosts.refresh_positions(x_delta, solver.num_threads);
+  const auto errors =
+      parallel_sum<PressureErrors>(states_.size(), solver.num_threads, [&](Index i) {
+        const auto r = static_cast<double>(std::max(states_[i].z, Real(0)));
+        return PressureErrors{r, r, static_cast<double>(states_[i].w)};
+      });
   t_ = errors.uphill > 0 ? 1 : next_t;
   return errors;
 }

@@ -37,7 +37,8 @@ class PressureSolve {
   /// this step's length. Particles that had come free start from nothing.
   /// @param v_density  (·, ρ/ρ0) at the end of the last step
   /// @param totals     Λ of the last step, last_dt long; 0: there was none
-  void begin(const Records& x_star,
+  void begin(const Neighborhood& near,
+             const Records& x_star,
              const Records& v_density,
              const std::vector<Real>& totals,
              Real share,

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace pbf {
@@ -80,6 +81,9 @@ Ids Simulation::add_particles(const PointsView& positions,
                            " particles are more than the " + std::to_string(kMostParticles) +
                            " that a simulation can hold");
   }
+  const auto wrapped = [&](int axis, Real x) {
+    return disc_.domain ? disc_.domain->wrap(axis, x) : x;
+  };
   State state = state_;
   state.x.resize(before + added);
   state.v.resize(before + added);
@@ -88,7 +92,7 @@ Ids Simulation::add_particles(const PointsView& positions,
   for (Index i = 0; i < added; ++i) {
     const Vec3 x = positions.col(i);
     const Vec3 v = velocities ? Vec3(velocities->col(i)) : Vec3(Vec3::Zero());
-    state.x[before + i] = {x[0], x[1], x[2], 0};
+    state.x[before + i] = {wrapped(0, x[0]), wrapped(1, x[1]), wrapped(2, x[2]), 0};
     state.v[before + i] = {v[0], v[1], v[2], 0};
     state.ids[static_cast<std::size_t>(before + i)] = static_cast<std::uint32_t>(before + i);
   }
@@ -126,11 +130,12 @@ StepReport Simulation::step(Real dt) {
     sort_by_cell();
     // Cheaper than to bring x* and u into the new order.
     predict(state_.x, state_.v, disc_, dt, threads, x_star_, u_);
+    near_.ghosts.refresh_positions(x_star_, threads);
     near_.fluid.build(grid_, x_star_, disc_.h, threads);
   }
   {
     const auto t = report.time(Stage::boundary);
-    near_.boundary.build(disc_.walls, x_star_, near_.fluid.lanes(), threads);
+    near_.boundary.build(disc_.walls, x_star_, size(), near_.fluid.lanes(), threads);
   }
   if (solver_.method_in_force() == Method::plain) {
     iterate_plain(report);
@@ -143,6 +148,7 @@ StepReport Simulation::step(Real dt) {
     new_totals_.resize(state_.totals.size());
     parallel_for(size(), threads,
                  [&](Index i) { new_totals_[static_cast<std::size_t>(i)] = u_[i].w; });
+    near_.ghosts.refresh(v_new_, threads);
   }
   if (solver_.vorticity > 0) {
     const auto t = report.time(Stage::vorticity);
@@ -162,6 +168,10 @@ StepReport Simulation::step(Real dt) {
     const auto t = report.time(Stage::density);
     measure(report);
   }
+  // The ghosts' time is over.
+  x_star_.resize(size());
+  v_new_.resize(size());
+  wrap(disc_.domain, x_star_, threads);
   state_.x.swap(x_star_);
   state_.v.swap(v_new_);
   state_.totals.swap(new_totals_);
@@ -192,7 +202,7 @@ void Simulation::iterate_pressure(Real dt, StepReport& report) {
   no_repulsion.tensile_strength = 0;
   {
     const auto t = report.time(Stage::multipliers);
-    pressure_.begin(x_star_, state_.v, state_.totals, solver_.warm_start, dt, last_dt_,
+    pressure_.begin(near_, x_star_, state_.v, state_.totals, solver_.warm_start, dt, last_dt_,
                     solver_.num_threads, x_lambda_);
   }
   {
@@ -269,7 +279,7 @@ Real Simulation::cfl_time_step() const {
 /// here or later has changed nothing that can be seen.
 void Simulation::sort_by_cell() {
   const int threads = solver_.num_threads;
-  grid_.build(x_star_, disc_.h, threads);
+  near_.sort(x_star_, disc_, threads, grid_);
   Records &x = x_lambda_, &v = v_new_;
   x.resize(size());
   v.resize(size());
@@ -334,13 +344,15 @@ Scalars Simulation::densities() const {
   // Found anew, since particles may have been added after the last step.
   const int threads = solver_.num_threads;
   CellGrid grid;
-  grid.build(state_.x, disc_.h, threads);
-  Records x(size()), density;
-  for (Index k = 0; k < size(); ++k) x[k] = state_.x[grid.order()[static_cast<std::size_t>(k)]];
   Neighborhood near;
-  near.build(grid, x, disc_, threads);
+  Records unsorted = state_.x, x(size()), density;
+  near.sort(unsorted, disc_, threads, grid);
+  const auto order = std::span(grid.order()).first(static_cast<std::size_t>(size()));
+  for (Index k = 0; k < size(); ++k) x[k] = state_.x[order[static_cast<std::size_t>(k)]];
+  near.build(grid, disc_, threads, x);
   relative_densities(near, disc_, x, threads, density);
-  const Scalars in_state_order = scattered(scalars_of(density), grid.order());
+  density.resize(size());
+  const Scalars in_state_order = scattered(scalars_of(density), order);
   return disc_.fluid.rest_density * scattered(in_state_order, state_.ids);
 }
 
@@ -348,7 +360,7 @@ std::size_t Simulation::bytes() const {
   const auto n = static_cast<std::size_t>(size());
   const std::size_t records = 6 * n * sizeof(Record);
   return records + 2 * n * sizeof(std::uint32_t) + 2 * n * sizeof(Real) + pressure_.bytes() +
-         grid_.bytes() + near_.fluid.bytes() + near_.boundary.bytes();
+         grid_.bytes() + near_.fluid.bytes() + near_.boundary.bytes() + near_.ghosts.bytes();
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -20,7 +20,8 @@ class Simulation {
                       const SolverParams& solver = {},
                       const std::optional<Box>& domain = {});
 
-  /// Copies particles in, at rest if no velocities are given. Returns their ids, consecutive
+  /// Copies particles in, at rest if no velocities are given; on the upper face of a periodic axis,
+  /// which is the lower one, they come to lie on that. Returns their ids, consecutive
   /// numbers. Throws InvalidParameter if a value is not finite, a position outside the domain, in
   /// 2-D also outside the plane of the first particle, or a velocity out of that plane, or if the
   /// counts differ.
@@ -42,7 +43,7 @@ class Simulation {
   [[nodiscard]] const SolverParams& solver() const { return solver_; }
   [[nodiscard]] const std::optional<Box>& domain() const { return disc_.domain; }
 
-  [[nodiscard]] Points positions() const;   ///< [m]
+  [[nodiscard]] Points positions() const;   ///< along periodic axes in [lower, upper) [m]
   [[nodiscard]] Points velocities() const;  ///< [m/s]
   [[nodiscard]] Scalars densities() const;  ///< ρ_i at these positions [kg/m³]
   [[nodiscard]] Scalars multipliers()

@@ -16,6 +16,7 @@ void compute_vorticity(const Neighborhood& near,
   sweep(near, disc, threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
     loops.vorticity(VW, at, x.data(), v.data(), omega.data(), x_strength.data());
   });
+  near.ghosts.refresh_positions(x_strength, threads);
 }
 
 void confine_vorticity(const Neighborhood& near,
@@ -29,6 +30,7 @@ void confine_vorticity(const Neighborhood& near,
   sweep(near, disc, threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
     loops.confinement(VW, at, dt * strength, x_strength.data(), omega.data(), v.data());
   });
+  near.ghosts.refresh(v, threads);
 }
 
 }  // namespace pbf

@@ -44,8 +44,9 @@ Bounds bounds_of(const Records& x, double farthest, int threads) {
 
 }  // namespace
 
-void CellGrid::build(const Records& x, Real h, int threads) {
+void CellGrid::build(const Records& x, Index particles, Real h, int threads) {
   const Index n = x.size();
+  particles_ = particles;
   if (n > kMostParticles) {
     throw InvalidParameter("particles: " + std::to_string(n) + " are more than the " +
                            std::to_string(kMostParticles) + " that a grid can hold");
@@ -65,14 +66,17 @@ void CellGrid::build(const Records& x, Real h, int threads) {
   };
   stride_y_ = cells(0);
   stride_z_ = stride_y_ * cells(1);
+  const std::uint64_t all_cells = stride_z_ * cells(2);
+  ghost_keys_ = particles < n ? all_cells : 0;
   parallel_for(n, threads, [&](Index i) {
     const Eigen::Array3d c = (coordinates(x[i]) - bounds.lower) / cell;
     const auto key = (static_cast<std::uint64_t>(c[0]) + 1) +
                      (static_cast<std::uint64_t>(c[1]) + 1) * stride_y_ +
-                     (static_cast<std::uint64_t>(c[2]) + 1) * stride_z_;
+                     (static_cast<std::uint64_t>(c[2]) + 1) * stride_z_ +
+                     (i < particles ? 0 : ghost_keys_);
     entries_[static_cast<std::size_t>(i)] = {key, static_cast<std::uint32_t>(i)};
   });
-  sort_entries(stride_z_ * cells(2), threads);
+  sort_entries(all_cells + ghost_keys_, threads);
   find_cells(threads);
 }
 

@@ -43,23 +43,23 @@ struct Scratch {
 
 void NeighborList::build(const CellGrid& grid, const Records& x, Real h, int threads) {
   isa_ = chosen_isa();
-  rows_.resize(x.size(), scan(isa_).lanes);
-  parallel_chunks(x.size(), threads, kChunk,
+  filler_ = 4 * static_cast<std::uint32_t>(Records::filler(x.size()));
+  rows_.resize(grid.particles(), scan(isa_).lanes);
+  parallel_chunks(grid.particles(), threads, kChunk,
                   [&](Index first, Index last) { build_chunk(grid, x, h, first, last); });
 }
 
 void NeighborList::build_chunk(
     const CellGrid& grid, const Records& x, Real h, Index first, Index last) {
   const Scan& loops = scan(isa_);
-  const auto filler = 4 * static_cast<std::uint32_t>(Records::filler(x.size()));
   thread_local Scratch scratch;
   std::size_t size = 0;  // of scratch.rows in use
   grid.for_each_cell(
-      first, last, [&](std::uint32_t begin, std::uint32_t end, const CellGrid::Ranges& ranges) {
+      first, last, [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
         std::size_t count = 0;
         for (const Span& range : ranges) count += range.end - range.begin;
         Candidates candidates = scratch.candidates(count);
-        candidates.count = loops.collect(x.data(), ranges.data(), candidates);
+        candidates.count = loops.collect(x.data(), ranges.data(), ranges.size(), candidates);
         // The cell's own row is the fifth.
         std::uint32_t self = begin - ranges[4].begin;
         for (int k = 0; k < 4; ++k) self += ranges[k].end - ranges[k].begin;
@@ -71,7 +71,7 @@ void NeighborList::build_chunk(
           std::uint32_t* const out = scratch.rows.data() + size;
           std::uint32_t* const lengths = scratch.lengths.data() + (b - first);
           const std::uint32_t* const done =
-              loops.rows(x.data(), b, e, candidates, self, h * h, filler, out, lengths);
+              loops.rows(x.data(), b, e, candidates, self, h * h, filler_, out, lengths);
           std::size_t offset = size;
           for (std::uint32_t i = b; i < e; ++i) {
             const std::uint32_t length = lengths[i - b];
@@ -98,7 +98,7 @@ void NeighborList::build_chunk(
       lengths[static_cast<std::size_t>(lane)] = exists ? scratch.lengths[i] : 0;
     }
     const auto [begin, end] = rows_.slots(first + slice);
-    loops.pack(rows.data(), lengths.data(), end - begin, filler, out);
+    loops.pack(rows.data(), lengths.data(), end - begin, filler_, out);
     out += static_cast<Index>(end - begin) * lanes;
   }
 }

@@ -16,7 +16,7 @@ inline constexpr Index kMostNeighbors = 8192;
 class NeighborList {
  public:
   /// @param grid  built from the same positions and h
-  /// @param x     those positions in the grid's order
+  /// @param x     those positions in the grid's order; ghosts have no rows
   /// Throws SimulationFailed if a particle has more than kMostNeighbors.
   void build(const CellGrid& grid, const Records& x, Real h, int threads);
 
@@ -36,6 +36,7 @@ class NeighborList {
   void build_chunk(const CellGrid& grid, const Records& x, Real h, Index first, Index last);
 
   Isa isa_{};
+  std::uint32_t filler_ = 0;
   SlicedRows<std::uint32_t> rows_;
 };
 
@@ -86,8 +87,7 @@ inline NeighborList::Row NeighborList::operator[](Index i) const {
   const auto slots = rows_.slots(i);
   const auto lanes = static_cast<std::uint32_t>(rows_.lanes());
   const std::uint32_t* lane = rows_.chunk(i).entries.data() + i % rows_.lanes();
-  return {lane + slots.begin * lanes, lane + slots.end * lanes, rows_.lanes(),
-          4 * static_cast<std::uint32_t>(Records::filler(size()))};
+  return {lane + slots.begin * lanes, lane + slots.end * lanes, rows_.lanes(), filler_};
 }
 
 }  // namespace pbf

@@ -21,9 +21,9 @@ struct Candidates {
 /// The inner loops of the neighbor search, for one instruction set.
 struct Scan {
   int lanes;  ///< particles in a slice
-  /// Copies the particles of nine ranges; returns how many. (Nine short loops per particle would
+  /// Copies the particles of the ranges; returns how many. (Nine short loops per particle would
   /// cost more than the one long loop that this allows.)
-  std::uint32_t (*collect)(const Record* x, const Span* ranges, Candidates to);
+  std::uint32_t (*collect)(const Record* x, const Span* ranges, std::size_t count, Candidates to);
   /// For the particles [begin, end), which are the candidates from number `self` on: writes the
   /// entries of the others within sqrt(h2) in order of candidates, row after row, each from a
   /// multiple of four on and with four fillers behind it, and the rows' lengths. `out` needs room

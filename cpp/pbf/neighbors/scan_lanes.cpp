@@ -20,10 +20,10 @@ Entries lane_numbers() {
   return numbers;
 }
 
-std::uint32_t collect(const Record* x, const Span* ranges, Candidates to) {
+std::uint32_t collect(const Record* x, const Span* ranges, std::size_t count, Candidates to) {
   const Entries lanes = lane_numbers();
   std::uint32_t n = 0;
-  for (int k = 0; k < 9; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     for (std::uint32_t j = ranges[k].begin; j < ranges[k].end; j += kLanes) {
       const RecordLanes at = load_records(x + j);
       store(to.x + n, at.xyz.x);

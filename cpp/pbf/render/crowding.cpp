@@ -25,7 +25,7 @@ void for_each_pair(const CellGrid& grid, const Records& x, Real s, F&& f) {
   };
   parallel_chunks(x.size(), kThreads, kChunk, [&](Index first, Index last) {
     grid.for_each_cell(first, last,
-                       [&](std::uint32_t begin, std::uint32_t end, const CellGrid::Ranges& ranges) {
+                       [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
                          for (std::uint32_t k = begin; k < end; ++k) {
                            // Its own row of cells first: most particles need no other.
                            if (!visit(k, ranges[4])) continue;

@@ -333,6 +333,7 @@ class Box:
         self,
         lower: collections.abc.Sequence[float] = ...,
         upper: collections.abc.Sequence[float] = ...,
+        periodic: collections.abc.Sequence[bool] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -357,6 +358,13 @@ class Box:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
+    @property
+    def periodic(self) -> tuple[bool, bool, bool]:
+        """
+        Axes along which there are no walls: what leaves the box there comes in at the opposite face, and fluid at the one face is next to fluid at the other.
+        """
+    @periodic.setter
+    def periodic(self, arg1: tuple[bool, bool, bool]) -> None: ...
     @property
     def upper(self) -> tuple[float, float, float]:
         """

@@ -16,9 +16,10 @@ struct Cloud {
   Cloud(const FluidParams& fluid, const Points& positions, const std::optional<Box>& box = {})
       : disc(fluid, box) {
     CellGrid grid;
-    grid.build(records_of(positions), disc.h, 2);
+    Records unsorted = records_of(positions);
+    near.sort(unsorted, disc, 2, grid);
     x = records_of(gathered(positions, grid.order()));
-    near.build(grid, x, disc, 2);
+    near.build(grid, disc, 2, x);
   }
 
   [[nodiscard]] Scalars densities() const {
