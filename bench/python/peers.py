@@ -50,29 +50,36 @@ class Solver(Protocol):
     def step(self) -> None:
         """Advance by one time step."""
 
+    def advance(self, seconds: float) -> int:
+        """Advance by that time, in steps as long as the solver finds right; return how many."""
+
     def positions(self) -> NDArray[np.float32]:
         """Return the particles' centers, shape (n, 3)."""
 
 
 class PBFluids:
-    def __init__(self, case: DamBreak) -> None:
+    """Ours: the plain method with so many iterations, or as it comes, which is by tolerance."""
+
+    def __init__(self, case: DamBreak, *, as_it_comes: bool = False) -> None:
         import pbfluids as pbf
 
         self.time_step = case.time_step
         self.support_radius = 2 * case.spacing
         self.search_ms = 0.0
-        solver = pbf.SolverParams(
-            iterations=case.iterations,
-            num_threads=case.threads,
-            xsph=case.xsph,
-            vorticity=case.vorticity,
-        )
+        solver = pbf.SolverParams(num_threads=case.threads)
+        if not as_it_comes:
+            solver = solver.replace(
+                iterations=case.iterations, xsph=case.xsph, vorticity=case.vorticity
+            )
         fluid = pbf.FluidParams(spacing=case.spacing, gravity=GRAVITY)
         self.simulation = pbf.Simulation(fluid, solver, domain=pbf.Box((0, 0, 0), case.tank))
         self.simulation.add_particles(pbf.block((0, 0, 0), (case.edge,) * 3, case.spacing))
 
     def step(self) -> None:
         self.search_ms += self.simulation.step(self.time_step).milliseconds["neighbors"]
+
+    def advance(self, seconds: float) -> int:
+        return self.simulation.advance(seconds / 3, frames=3).steps
 
     def positions(self) -> NDArray[np.float32]:
         return self.simulation.positions
@@ -83,13 +90,16 @@ class SPlisHSPlasH:
 
     CUBE_FACES = "124 143 578 586 156 162 348 387 137 175 268 284"  # outward, as lines of an .obj
 
-    def __init__(self, case: DamBreak, method: str, iterations: int | None = None) -> None:
+    def __init__(
+        self, case: DamBreak, method: str, iterations: int | None = None, *, cfl: bool = False
+    ) -> None:
         import pysplishsplash as sph
 
         self.sph = sph
         self.count = case.side**3
         self.method = method
         self.iterations = iterations  # exactly so many; None for its own stopping rule
+        self.cfl = cfl  # time steps by its own rule instead of the case's
         self.folder = tempfile.TemporaryDirectory()
         self.base = sph.Exec.SimulatorBase()
         self.base.init(
@@ -154,6 +164,9 @@ class SPlisHSPlasH:
             pressure = self.simulation.getTimeStep()
             pressure.setValueUInt(pressure.MIN_ITERATIONS, self.iterations)
             pressure.setValueUInt(pressure.MAX_ITERATIONS, self.iterations)
+        if self.cfl:
+            method = self.simulation.ENUM_CFL_STANDARD
+            self.simulation.setValueInt(self.simulation.CFL_METHOD, method)
         xsph = self.fluid.getXSPH()
         xsph.setValueFloat(xsph.FLUID_COEFFICIENT, case.xsph)
         if case.vorticity:
@@ -168,6 +181,14 @@ class SPlisHSPlasH:
 
     def step(self) -> None:
         self.base.timeStepNoGUI()
+
+    def advance(self, seconds: float) -> int:
+        clock = self.sph.TimeManager.getCurrent()
+        end, steps = clock.getTime() + seconds, 0
+        while clock.getTime() < end:
+            self.step()
+            steps += 1
+        return steps
 
     def positions(self) -> NDArray[np.float32]:
         solver = self.simulation.getTimeStep()
@@ -212,6 +233,12 @@ class Genesis:
     def step(self) -> None:
         self.scene.step(update_visualizer=False)
 
+    def advance(self, seconds: float) -> int:
+        steps = round(seconds / self.scene.sim_options.dt)
+        for _ in range(steps):
+            self.step()
+        return steps
+
     def positions(self) -> NDArray[np.float32]:
         return self.fluid.get_particles_pos().numpy()
 
@@ -223,6 +250,9 @@ WORK: dict[str, dict[str, float]] = {
     "with XSPH": {"xsph": 0.01},
     "with XSPH and vorticity": {"xsph": 0.01, "vorticity": 0.01},
 }
+# Not a step but a simulated second, every solver with the time step and the tolerance it comes
+# with.
+SECOND = "a second"
 
 
 @dataclass(frozen=True)
@@ -240,9 +270,21 @@ def six_iterations(case: DamBreak) -> PBFluids:
     return PBFluids(replace(case, iterations=6))
 
 
+def as_it_comes(case: DamBreak) -> PBFluids:
+    return PBFluids(case, as_it_comes=True)
+
+
+def divergence_free(case: DamBreak) -> SPlisHSPlasH:
+    return SPlisHSPlasH(case, "DFSPH", cfl=True)
+
+
 def position_based(case: DamBreak) -> SPlisHSPlasH:
     return SPlisHSPlasH(case, "PBF", iterations=case.iterations)
 
+
+# pySPlisHSPlasH's wheel comes with parts of OpenGL that crash unless the system's are loaded first.
+LIBGL = "the system's libGL.so.1 (Debian: libgl1)"
+PRELOAD = {"LD_PRELOAD": "libGL.so.1"}
 
 OURS = "pbfluids"
 SYSTEMS: dict[str, System] = {
@@ -251,12 +293,17 @@ SYSTEMS: dict[str, System] = {
     "pbfluids, 6 iterations": System(
         six_iterations, "pbfluids", needs="an installed pbfluids", work=("density constraint",)
     ),
+    "pbfluids, as it comes": System(
+        as_it_comes, "pbfluids", needs="an installed pbfluids", work=(SECOND,)
+    ),
+    "pySPlisHSPlasH DFSPH": System(
+        divergence_free, "pySPlisHSPlasH", LIBGL, work=(SECOND,), environment=PRELOAD
+    ),
     "pySPlisHSPlasH PBF": System(
         position_based,
         "pySPlisHSPlasH",
-        needs="the system's libGL.so.1 (Debian: libgl1)",
-        # The wheel comes with parts of OpenGL that crash unless the system's are loaded first.
-        environment={"LD_PRELOAD": "libGL.so.1"},
+        LIBGL,
+        environment=PRELOAD,
     ),
     "Genesis PBD.Liquid": System(
         Genesis, "genesis-world", needs="torch, for CPUs will do", work=("with XSPH",)

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 from machine import commit, processor
 from numpy.typing import NDArray
-from peers import OURS, SYSTEMS, WORK, DamBreak
+from peers import OURS, SECOND, SYSTEMS, WORK, DamBreak
 
 import pbfluids as pbf
 from pbfluids._core import build_info
@@ -41,23 +41,35 @@ class Plan:
     warm_up: int = 40
     blocks: int = 8
     steps: int = 5  # of each block
+    turns: int = 20  # that make up the second
 
 
 @dataclass(frozen=True)
 class Block:
     """A few steps in a row."""
 
-    milliseconds: list[float]  # of each whole step
+    milliseconds: list[float]  # of each whole step; of all together if seconds were asked for
     search_ms: float | None  # of the neighbor search in a step, mean
     positions: NDArray[np.float32]
+    steps: int
 
 
 def serve(name: str, case: DamBreak, pipe: Connection) -> None:
-    """Build a solver, then take as many steps as the pipe asks for, until it asks for none."""
+    """Build a solver, then do what the pipe asks for, until it asks for nothing.
+
+    A whole number asks for that many steps, any other for that many seconds.
+    """
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # solvers greet and log
     solver = SYSTEMS[name].make(case)
     pipe.send(solver.support_radius)
-    while steps := pipe.recv():
+    while asked := pipe.recv():
+        if isinstance(asked, float):
+            start = time.perf_counter()
+            steps = solver.advance(asked)
+            taken = 1e3 * (time.perf_counter() - start)
+            pipe.send(Block([taken], None, solver.positions(), steps))
+            continue
+        steps = asked
         solver.step()  # not timed: the others have emptied the caches
         before = solver.search_ms
         milliseconds = []
@@ -67,7 +79,7 @@ def serve(name: str, case: DamBreak, pipe: Connection) -> None:
             milliseconds.append(1e3 * (time.perf_counter() - start))
         after = solver.search_ms
         search = None if before is None or after is None else (after - before) / steps
-        pipe.send(Block(milliseconds, search, solver.positions()))
+        pipe.send(Block(milliseconds, search, solver.positions(), steps))
 
 
 class Child:
@@ -87,8 +99,8 @@ class Child:
         theirs.close()
         self.support_radius: float = self.pipe.recv()
 
-    def run(self, steps: int) -> Block:
-        self.pipe.send(steps)
+    def run(self, asked: int | float) -> Block:
+        self.pipe.send(asked)
         return self.pipe.recv()
 
     def close(self) -> None:
@@ -96,12 +108,13 @@ class Child:
         self.process.join()
 
 
-def density_error(positions: NDArray[np.float32], case: DamBreak) -> float:
-    """Measure every solver with one ruler: the mean of max(ρ/ρ0 − 1, 0) away from the walls."""
+def compression(positions: NDArray[np.float32], case: DamBreak) -> tuple[float, float]:
+    """Measure every solver with one ruler: max(ρ/ρ0 − 1, 0) away from the walls, mean and most."""
     h = 2 * case.spacing
     density = pbf.operators.density(positions, support_radius=h, rest_density=1, num_threads=1)
     away = ((positions > h) & (positions < np.subtract(case.tank, h))).all(axis=1)
-    return float(np.maximum(density[away] - 1, 0).mean())
+    above = np.maximum(density[away] - 1, 0)
+    return float(above.mean()), float(above.max())
 
 
 def tree_search(positions: NDArray[np.float32], radius: float) -> tuple[float, float]:
@@ -124,7 +137,7 @@ def children(work: str, case: DamBreak, skipped: dict[str, str]) -> list[Child]:
     for name, system in SYSTEMS.items():
         if work in system.work and name not in skipped:
             try:
-                started.append(Child(name, replace(case, **WORK[work])))
+                started.append(Child(name, replace(case, **WORK.get(work, {}))))
             except EOFError:
                 skipped[name] = f"did not start; it needs {system.needs}"
     return started
@@ -141,8 +154,24 @@ def measure(work: str, case: DamBreak, plan: Plan, skipped: dict[str, str]) -> l
         for solver, record in zip(solvers, records, strict=True):
             block = solver.run(plan.steps)
             neighbors, tree_ms = tree_search(block.positions, solver.support_radius)
-            error = density_error(block.positions, case)
+            error, _ = compression(block.positions, case)
             values = (block.milliseconds, block.search_ms, tree_ms, error, neighbors)
+            for key, value in zip(keys, values, strict=True):
+                record[key].append(value)
+    for solver in solvers:
+        solver.close()
+    return records
+
+
+def measure_second(case: DamBreak, turns: int, skipped: dict[str, str]) -> list[dict[str, Any]]:
+    """Let the solvers take turns until each has simulated a second; return a record of each."""
+    solvers = children(SECOND, case, skipped)
+    keys = ("ms", "steps", "mean_compression", "max_compression")
+    records = [{"system": s.name, **{key: [] for key in keys}} for s in solvers]
+    for _ in range(turns):
+        for solver, record in zip(solvers, records, strict=True):
+            block = solver.run(1 / turns)
+            values = (block.milliseconds[0], block.steps, *compression(block.positions, case))
             for key, value in zip(keys, values, strict=True):
                 record[key].append(value)
     for solver in solvers:
@@ -168,6 +197,7 @@ def result(case: DamBreak, plan: Plan) -> dict[str, Any]:
     if load > 0.5:
         print(f"the machine is not idle (load {load:.1f}): expect noise", file=sys.stderr)
     runs = [record for work in WORK for record in measure(work, case, plan, skipped)]
+    second = measure_second(case, plan.turns, skipped)
     for name, reason in skipped.items():
         print(f"without {name}: {reason}", file=sys.stderr)
     return {
@@ -180,6 +210,7 @@ def result(case: DamBreak, plan: Plan) -> dict[str, Any]:
         "versions": versions,
         "skipped": skipped,
         "runs": runs,
+        "second": second,
     }
 
 
@@ -216,6 +247,17 @@ def search_rows(runs: list[dict[str, Any]], threads: int) -> list[str]:
     return [f"| {name} | {statistics.median(ms):.0f} |" for name, ms in found.items()]
 
 
+def second_rows(records: list[dict[str, Any]]) -> list[str]:
+    """Write a row for each simulated second."""
+    ours = sum(records[0]["ms"])
+    return [
+        f"| {r['system']} | {sum(r['ms']) / 1e3:.1f} | {sum(r['ms']) / ours:.1f} "
+        f"| {sum(r['steps'])} | {statistics.fmean(r['mean_compression']):.2%} "
+        f"| {statistics.fmean(r['max_compression']):.1%} |"
+        for r in records
+    ]
+
+
 def tables(found: dict[str, Any]) -> str:
     """Write Markdown."""
     case, plan, versions = found["case"], found["plan"], found["versions"]
@@ -235,6 +277,13 @@ def tables(found: dict[str, Any]) -> str:
             "| neighbor lists of them | ms |",
             "|---|---:|",
             *search_rows(found["runs"], case["threads"]),
+            "",
+            f"A simulated second, in turns of 1/{plan['turns']} s, each solver with the time steps "
+            "and the tolerance it comes with:",
+            "",
+            "| solver | s | times ours | steps | mean compression | of the worst particle |",
+            "|---|---:|---:|---:|---:|---:|",
+            *second_rows(found["second"]),
         ]
     )
 
