@@ -51,7 +51,7 @@ const Motion& dam_break_in_motion(Index n) {
   static std::map<Index, Motion> motions;
   const auto found = motions.find(n);
   if (found != motions.end()) return found->second;
-  Simulation simulation = tank(n, {});
+  Simulation simulation = tank(n, {.iterations = 4});
   const Box& domain = *simulation.domain();
   const Real side = domain.upper.z();
   simulation.add_particles(block({0, 0, 0}, {side, side, side}, simulation.fluid().spacing));

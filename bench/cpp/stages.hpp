@@ -18,7 +18,9 @@ std::vector<std::int64_t> thread_counts();
 /// Times `stage`, or the whole step without one. The result is wrong, and has no time, if the fluid
 /// is compressed or if the state differs in a bit from that of another row with as many particles:
 /// the benchmarks of one executable differ in threads alone.
-void time_stage(benchmark::State& state, std::optional<Stage> stage, SolverParams solver = {});
+void time_stage(benchmark::State& state,
+                std::optional<Stage> stage,
+                SolverParams solver = {.iterations = 4});
 
 /// True once a benchmark had a wrong result.
 bool any_wrong_result();
