@@ -177,7 +177,9 @@ class Simulation:
         InvalidParameter
             If ``dt`` is not finite and positive.
         SimulationFailed
-            If positions stop being finite or particles pile up. The state is that before the call.
+            If positions stop being finite, particles pile up, or fluid that is crushed to more than
+            twice its density on average is crushed further: the time step is too long. The state
+            is that before the call.
 
         """
         return self._core.step(dt)

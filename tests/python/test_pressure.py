@@ -248,3 +248,12 @@ def test_the_method_follows_from_counting_iterations_and_the_kernel_from_the_met
     assert kernel(pbf.SolverParams(method="pressure", iterations=4)) == "wendland"
     chosen = pbf.FluidParams(kernel="cubic_spline")
     assert pbf.Simulation(chosen).fluid.kernel == "cubic_spline"
+
+
+def test_an_unstable_time_step_says_so_instead_of_exploding() -> None:
+    simulation = tank(pbf.SolverParams(iterations=1, tensile_strength=5.0))
+    with pytest.raises(errors.SimulationFailed, match="a time step of 0.1 s is unstable here; use"):
+        for _ in range(200):
+            before = simulation.state_hash()
+            simulation.step(0.1)
+    assert simulation.state_hash() == before

@@ -17,6 +17,9 @@
 namespace pbf {
 namespace {
 
+/// Mean compression beyond which a step that adds to it is no fluid any more.
+constexpr double kCrushed = 1.0;
+
 constexpr Real square(Real a) { return a * a; }
 
 std::string particle_text(const PointsView& points, Index i) {
@@ -97,6 +100,7 @@ Ids Simulation::add_particles(const PointsView& positions,
     state.ids[static_cast<std::size_t>(before + i)] = static_cast<std::uint32_t>(before + i);
   }
   state_ = std::move(state);
+  last_error_ = -1;
   return consecutive(before, added);
 }
 
@@ -166,7 +170,7 @@ StepReport Simulation::step(Real dt) {
   }
   {
     const auto t = report.time(Stage::density);
-    measure(report);
+    measure(dt, report);
   }
   // The ghosts' time is over.
   x_star_.resize(size());
@@ -176,6 +180,7 @@ StepReport Simulation::step(Real dt) {
   state_.v.swap(v_new_);
   state_.totals.swap(new_totals_);
   last_dt_ = dt;
+  last_error_ = report.mean_density_error;
   time_ += static_cast<double>(dt);
   ++step_count_;
   return report;
@@ -300,7 +305,7 @@ void Simulation::sort_by_cell() {
 
 /// Density errors at the positions the step ends with, from (v, ρ/ρ0); throws if any number is not
 /// finite.
-void Simulation::measure(StepReport& report) {
+void Simulation::measure(Real dt, StepReport& report) {
   const Index n = size();
   if (n == 0) return;
   struct Errors {
@@ -325,6 +330,13 @@ void Simulation::measure(StepReport& report) {
   }
   report.mean_density_error = total.sum / static_cast<double>(n);
   report.max_density_error = total.max;
+  if (last_error_ >= 0 && report.mean_density_error > std::max(kCrushed, last_error_)) {
+    throw SimulationFailed(
+        "step " + std::to_string(step_count_ + 1) + ": the fluid is crushed to " +
+        to_text(1 + report.mean_density_error) + " times its density and it grows worse: a time " +
+        "step of " + to_text(dt) + " s is unstable here; use shorter ones (more substeps, or " +
+        "time_step = \"adaptive\"), more iterations or the pressure method");
+  }
 }
 
 Points Simulation::positions() const { return scattered(points_of(state_.x), state_.ids); }
