@@ -40,6 +40,9 @@ void bind_step_report(py::module_& m) {
       .def_readonly("mean_density_error", &StepReport::mean_density_error,
                     "Mean over particles of max(density / rest_density - 1, 0): compression only.")
       .def_readonly("max_density_error", &StepReport::max_density_error, "The largest compression.")
+      .def_readonly("stable", &StepReport::stable,
+                    "False if the fluid was crushed to twice its density in the mean: the time "
+                    "step is too long.")
       .def_property_readonly(
           "milliseconds",
           [](const StepReport& self) {

@@ -14,6 +14,7 @@ __all__ = [
     "RendererUnavailable",
     "SceneError",
     "SimulationFailed",
+    "UnstableTimeStep",
     "WrongType",
 ]
 
@@ -36,6 +37,10 @@ class WrongType(FluidError, TypeError):
 
 class SimulationFailed(FluidError, ArithmeticError):
     """A step could not be completed; the state is that of the last complete step."""
+
+
+class UnstableTimeStep(RuntimeWarning):
+    """A warning: the time step is too long for the fluid to stay one."""
 
 
 class RendererUnavailable(FluidError, OSError):

@@ -221,6 +221,7 @@ def _frame_record(frame: Frame) -> dict[str, Any]:
             "iterations": report.iterations,
             "mean_density_error": report.mean_density_error,
             "max_density_error": report.max_density_error,
+            "stable": report.stable,
             "milliseconds": report.milliseconds,
         },
     }

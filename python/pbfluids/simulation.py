@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -78,6 +79,21 @@ def ball(
 
     """
     return _core.ball(center, radius, spacing, dimensions)
+
+
+def _warned(report: StepReport) -> StepReport:
+    """Say where the time step is too long for the fluid to stay one."""
+    if not report.stable:
+        from pbfluids.errors import UnstableTimeStep
+
+        warnings.warn(
+            f"the fluid is crushed to {1 + report.mean_density_error:.1f} times its density: the "
+            'time step is too long; use shorter ones (more substeps, or time_step="adaptive"), '
+            "more iterations, or the pressure method",
+            UnstableTimeStep,
+            stacklevel=3,
+        )
+    return report
 
 
 class Simulation:
@@ -177,12 +193,15 @@ class Simulation:
         InvalidParameter
             If ``dt`` is not finite and positive.
         SimulationFailed
-            If positions stop being finite, particles pile up, or fluid that is crushed to more than
-            twice its density on average is crushed further: the time step is too long. The state
-            is that before the call.
+            If positions stop being finite or particles pile up. The state is that before the call.
+
+        Warns
+        -----
+        UnstableTimeStep
+            If the fluid is crushed to twice its density in the mean.
 
         """
-        return self._core.step(dt)
+        return _warned(self._core.step(dt))
 
     def advance(
         self,
@@ -216,7 +235,7 @@ class Simulation:
             raise InvalidParameter(f"frames = {frames}: must be >= 1")
         report = None
         for done in range(1, frames + 1):
-            latest = self._core.advance(seconds)
+            latest = _warned(self._core.advance(seconds))
             if report is None:
                 report = latest
             else:

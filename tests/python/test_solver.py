@@ -122,6 +122,7 @@ def test_a_rigidly_rotating_ball_has_the_vorticity_two_omega_inside() -> None:
 # --- walls ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.filterwarnings("ignore::pbfluids.errors.UnstableTimeStep")
 def test_no_particle_leaves_the_box_however_hard_it_is_thrown() -> None:
     box = pbf.Box((-0.1, 0.2, 0.3), (0.17, 0.5, 0.53))  # sizes that D does not divide
     fluid = pbf.FluidParams(spacing=D, gravity=(0.0, -9.81, 0.0))

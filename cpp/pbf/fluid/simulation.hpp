@@ -28,8 +28,8 @@ class Simulation {
   Ids add_particles(const PointsView& positions, const std::optional<Points>& velocities = {});
 
   /// One time step of dt seconds: Algorithm 1 of [MM13]. Throws InvalidParameter unless dt is
-  /// finite and positive, and SimulationFailed if positions stop being finite, particles pile up or
-  /// the fluid is crushed; the state is then that before the call.
+  /// finite and positive, and SimulationFailed if positions stop being finite or particles pile up;
+  /// the state is then that before the call.
   StepReport step(Real dt);
 
   /// One frame of `seconds`, in solver().substeps steps, or in as many as an adaptive time step
@@ -65,7 +65,7 @@ class Simulation {
   void sort_by_cell();
   void iterate_plain(StepReport& report);
   void iterate_pressure(Real dt, StepReport& report);
-  void measure(Real dt, StepReport& report);
+  void measure(StepReport& report);
   [[nodiscard]] Real cfl_time_step() const;
 
   Discretization disc_;
@@ -81,8 +81,7 @@ class Simulation {
     std::vector<std::uint32_t> ids;  // the row that a particle has outside
   };
   State state_;
-  Real last_dt_ = 0;        // of the step that totals belong to [s]
-  double last_error_ = -1;  // mean density error of the last step; below 0: there was none
+  Real last_dt_ = 0;  // of the step that totals belong to [s]
 
   // Of the step under way; x_star_ and v_new_ are swapped with the state when it has succeeded.
   Records x_star_, v_new_;

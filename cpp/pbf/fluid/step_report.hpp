@@ -30,6 +30,7 @@ struct StepReport {
   int iterations = 0;
   double mean_density_error = 0;  ///< mean over particles of max(ρ/ρ0 − 1, 0)
   double max_density_error = 0;   ///< largest over particles
+  bool stable = true;             ///< false where fluid has twice its density in the mean
   std::array<double, static_cast<std::size_t>(Stage::count)> milliseconds{};
 
   /// Starts the clock of a stage; it stops with the end of the scope.
@@ -48,6 +49,7 @@ struct StepReport {
     const double weight = static_cast<double>(next.steps) / (steps + next.steps);
     mean_density_error += weight * (next.mean_density_error - mean_density_error);
     max_density_error = std::max(max_density_error, next.max_density_error);
+    stable = stable && next.stable;
     steps += next.steps;
     iterations += next.iterations;
     for (std::size_t k = 0; k < milliseconds.size(); ++k) milliseconds[k] += next.milliseconds[k];

@@ -410,6 +410,11 @@ class StepReport:
         Milliseconds by stage.
         """
     @property
+    def stable(self) -> bool:
+        """
+        False if the fluid was crushed to twice its density in the mean: the time step is too long.
+        """
+    @property
     def steps(self) -> int:
         """
         Time steps reported on.
