@@ -103,13 +103,15 @@ def test_a_box_full_of_fluid_falls_freely_round_and_round(dimensions: int) -> No
 # --- across the seam -----------------------------------------------------------------------------
 
 
-def flown(center: list[float], steps: int) -> tuple[pbf.Simulation, NDArray[np.float64]]:
+def flown(
+    center: list[float], steps: int, solver: pbf.SolverParams = ALL_TERMS
+) -> tuple[pbf.Simulation, NDArray[np.float64]]:
     """A stirred drop on its way through the cube, and where it started."""
     x = pbf.ball((0.0, 0.0, 0.0), 4 * D, spacing=D) + np.array(center)
     rng = np.random.default_rng(80)
     x += 0.2 * D * rng.uniform(-1, 1, x.shape)
     v = [1.5, -1.0, 0.5] + 0.5 * rng.normal(size=x.shape)
-    simulation = pbf.Simulation(WEIGHTLESS, ALL_TERMS, domain=CUBE)
+    simulation = pbf.Simulation(WEIGHTLESS, solver, domain=CUBE)
     simulation.add_particles(ref.wrap(x, ref.Box.of(CUBE)), v)
     for _ in range(steps):
         simulation.step(0.002)
@@ -130,6 +132,16 @@ def test_a_drop_that_crosses_a_face_an_edge_or_a_corner_moves_like_one_that_does
     np.testing.assert_allclose(crossing.densities, inside.densities, rtol=1e-3)
     left = np.ptp(inside.positions, axis=0).max()
     assert np.ptp(crossing.positions, axis=0).max() > 2 * left, "it did lie across the seam"
+
+
+def test_each_velocity_stage_sees_across_the_seam_what_the_one_before_it_wrote() -> None:
+    """Confinement that changes velocities by some 0.1 m/s, of which XSPH takes over half."""
+    solver = ALL_TERMS.replace(vorticity=2.0, xsph=0.5)
+    inside, _ = flown([0.3, 0.3, 0.3], steps=1, solver=solver)
+    crossing, _ = flown([0.0, 0.0, 0.0], steps=1, solver=solver)
+    np.testing.assert_allclose(crossing.velocities, inside.velocities, atol=1e-3)
+    without, _ = flown([0.3, 0.3, 0.3], steps=1, solver=solver.replace(vorticity=0.0))
+    assert np.abs(inside.velocities - without.velocities).mean() > 0.02
 
 
 def test_collisions_across_the_seams_conserve_momentum() -> None:

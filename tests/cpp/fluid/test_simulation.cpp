@@ -9,8 +9,8 @@
 namespace pbf {
 namespace {
 
-Simulation dam_break(int threads) {
-  const Box box{.lower = {0, 0, 0}, .upper = {1.0F, 0.6F, 0.4F}};
+Simulation dam_break(int threads, const Axes& periodic = {false, false, false}) {
+  const Box box{.lower = {0, 0, 0}, .upper = {1.0F, 0.6F, 0.4F}, .periodic = periodic};
   Simulation sim({.spacing = 0.04F}, {.vorticity = 0.01F, .num_threads = threads}, box);
   sim.add_particles(block({0, 0, 0}, {0.4F, 0.4F, 0.4F}, 0.04F));
   return sim;
@@ -19,15 +19,18 @@ Simulation dam_break(int threads) {
 }  // namespace
 
 TEST_CASE("simulation: the same bits for any number of threads") {
-  const auto hash_after = [](int threads) {
-    Simulation sim = dam_break(threads);
-    for (int k = 0; k < 30; ++k) sim.step(0.004F);
-    return sim.state_hash();
-  };
-  const std::uint64_t one = hash_after(1);
-  for (const int threads : {2, 3, 4, 7, 16}) {
-    CAPTURE(threads);
-    CHECK(hash_after(threads) == one);
+  for (const Axes& periodic : {Axes{false, false, false}, Axes{true, false, true}}) {
+    CAPTURE(periodic[0]);
+    const auto hash_after = [&](int threads) {
+      Simulation sim = dam_break(threads, periodic);
+      for (int k = 0; k < 30; ++k) sim.step(0.004F);
+      return sim.state_hash();
+    };
+    const std::uint64_t one = hash_after(1);
+    for (const int threads : {2, 3, 4, 7, 16}) {
+      CAPTURE(threads);
+      CHECK(hash_after(threads) == one);
+    }
   }
 }
 
