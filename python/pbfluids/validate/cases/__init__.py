@@ -1,0 +1,3 @@
+"""A module for each case."""
+
+from __future__ import annotations
