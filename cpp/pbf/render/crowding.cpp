@@ -27,10 +27,9 @@ void for_each_pair(const CellGrid& grid, const Records& x, Real s, F&& f) {
     grid.for_each_cell(first, last,
                        [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
                          for (std::uint32_t k = begin; k < end; ++k) {
-                           // Its own row of cells first: most particles need no other.
-                           if (!visit(k, ranges[4])) continue;
-                           for (const Span& range : ranges) {
-                             if (&range != &ranges[4] && !visit(k, range)) break;
+                           // Near rows of cells first: most particles need no other.
+                           for (const std::size_t row : {4U, 1U, 3U, 5U, 7U, 0U, 2U, 6U, 8U}) {
+                             if (!visit(k, ranges[row])) break;
                            }
                          }
                        });

@@ -75,7 +75,7 @@ def run(settings: Settings) -> Result:
         unexplained = np.var(means - slope * centers - at_floor) / np.var(means)
         result.check(f"pressure, {name}: 1 − R² of layer means", unexplained, 0.01)
         error = 100 * (at_floor / bottom - 1)
-        result.check(f"pressure, {name}: bottom against ρ0 g H", error, 5.0, "%")
+        result.check(f"pressure, {name}: bottom against ρ0 g H", error, 2.0, "%")
     late = float(np.mean(energies[-60:]))
     result.check("kinetic energy in the last second", late, REST_ENERGY, "J/kg")
     result.check("kinetic energy, last second against largest", late / max(energies), 0.1)
