@@ -79,7 +79,7 @@ class Solver:
     tolerance: float = 0.001
     max_tolerance: float = math.inf
     compliance: float = 0.0
-    warm_start: float = 0.5
+    warm_start: float = 0.25
     acceleration: str = "nesterov"
     relaxation: float = 0.01
     constraint_floor: float | None = -math.inf

@@ -83,7 +83,7 @@ struct SolverParams {
   Real tolerance = 0.001F;
   std::optional<Real> max_tolerance = std::nullopt;
   Real compliance = 0.0F;
-  Real warm_start = 0.5F;
+  Real warm_start = 0.25F;
   Acceleration acceleration = Acceleration::nesterov;
   int substeps = 4;
   TimeStep time_step = TimeStep::fixed;
