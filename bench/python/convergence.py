@@ -99,7 +99,7 @@ COUNTS = [1, 2, 4, 8, 16, 32, 64, 128]
 RUNS = {
     "plain, 4 iterations": plain(4),
     "plain, 16 iterations": plain(16),
-    "pressure, 4 iterations": pressure(iterations=4),
+    "pressure, 4 iterations": pressure(iterations=4, warm_start=0.5),
     "pressure, cold, no nesterov": pressure(
         warm_start=0.0, acceleration="none", max_iterations=300
     ),

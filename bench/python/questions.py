@@ -267,7 +267,7 @@ def shares(steps: int = 120) -> Table:
             reports[name].append(simulation.step(FRAME / 4))
     return {
         name: {
-            "iterations": float(np.mean([report.iterations for report in found[20:]])),
+            "iterations": float(np.median([report.iterations for report in found[20:]])),
             "error": float(np.mean([report.mean_density_error for report in found[20:]])),
             "ms": {
                 stage: float(np.median([report.milliseconds[stage] for report in found[20:]]))
