@@ -10,8 +10,6 @@ so that whatever else the machine does meets all of them.
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
 import time
 from dataclasses import dataclass, field
@@ -20,7 +18,7 @@ from typing import Any
 
 import numpy as np
 from machine import commit, processor
-from plots import legend_below, panels, save
+from plots import legend_below, panels, results_of, save
 
 import pbfluids as pbf
 from pbfluids.errors import SimulationFailed
@@ -466,19 +464,9 @@ def summary(results: Table) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, default=Path("out/convergence.json"))
-    parser.add_argument("--images", type=Path, default=Path("docs/images/convergence"))
-    parser.add_argument("--again", action="store_true", help="draw what the JSON has")
-    options = parser.parse_args()
-    if not options.again:
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps(measure(), indent=1), encoding="utf-8")
-    results = json.loads(options.json.read_text(encoding="utf-8"))
+    results, images = results_of(__doc__, "convergence", measure)
     for draw in (draw_one_step, draw_runs, draw_settling, draw_splits, draw_theory):
-        draw(results, options.images)
+        draw(results, images)
     print(summary(results))
 
 

@@ -2,13 +2,31 @@
 
 from __future__ import annotations
 
+import argparse
+import json
+from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+def results_of(
+    doc: str | None, name: str, measure: Callable[[], dict[str, Any]]
+) -> tuple[dict[str, Any], Path]:
+    """Do what the command line asks for; return what was measured and where its plots go."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--json", type=Path, default=Path(f"out/{name}.json"))
+    parser.add_argument("--images", type=Path, default=Path(f"docs/images/{name}"))
+    parser.add_argument("--again", action="store_true", help="draw what the JSON has")
+    options = parser.parse_args()
+    if not options.again:
+        options.json.parent.mkdir(parents=True, exist_ok=True)
+        options.json.write_text(json.dumps(measure(), indent=1), encoding="utf-8")
+    return json.loads(options.json.read_text(encoding="utf-8")), options.images
 
 
 def panels(count: int, height: float = 3.6) -> tuple[Figure, list[Axes]]:

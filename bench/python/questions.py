@@ -8,8 +8,6 @@
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
 from itertools import product
 from pathlib import Path
@@ -18,7 +16,7 @@ from typing import Any
 import numpy as np
 from machine import commit, processor
 from numpy.typing import NDArray
-from plots import legend_below, panels, save
+from plots import legend_below, panels, results_of, save
 
 import pbfluids as pbf
 from pbfluids._core import stages
@@ -299,27 +297,20 @@ def draw_shares(results: Table, folder: Path) -> None:
     save(figure, folder / "shares.png")
 
 
+def measure() -> Table:
+    return {
+        "commit": commit(),
+        "processor": processor(),
+        "shares": shares(),
+        "searches": searches(),
+        "vortices": vortices(),
+    }
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, default=Path("out/questions.json"))
-    parser.add_argument("--images", type=Path, default=Path("docs/images/questions"))
-    parser.add_argument("--again", action="store_true", help="draw what the JSON has")
-    options = parser.parse_args()
-    if not options.again:
-        results = {
-            "commit": commit(),
-            "processor": processor(),
-            "shares": shares(),
-            "searches": searches(),
-            "vortices": vortices(),
-        }
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps(results, indent=1), encoding="utf-8")
-    results = json.loads(options.json.read_text(encoding="utf-8"))
+    results, images = results_of(__doc__, "questions", measure)
     for draw in (draw_searches, draw_vortices, draw_shares):
-        draw(results, options.images)
+        draw(results, images)
     for row in results["searches"]:
         print({key: float(f"{value:.4g}") for key, value in row.items()})
     for name, row in results["shares"].items():

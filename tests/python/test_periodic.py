@@ -10,7 +10,8 @@ import pytest
 import reference as ref
 from numpy.typing import NDArray
 from reference.samples import jittered_block
-from support.scenes import TINY
+from support.bits import hash_after_fifty_steps
+from support.scenes import TINY, faults_of
 
 import pbfluids as pbf
 from pbfluids import _core, errors, toml
@@ -239,12 +240,6 @@ def test_taylor_green_vortices_decay_and_stay_nearly_free_of_divergence() -> Non
 # --- the same result, always ---------------------------------------------------------------------
 
 
-def hash_after_fifty_steps(simulation: pbf.Simulation) -> str:
-    for _ in range(50):
-        simulation.step(0.002)
-    return simulation.state_hash()
-
-
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_the_state_has_the_same_bits_for_any_number_of_threads(dimensions: int) -> None:
     once = hash_after_fifty_steps(channel(1, dimensions))
@@ -322,12 +317,6 @@ def test_a_particle_flung_beyond_what_float32_tells_apart_fails_and_changes_noth
 
 
 # --- scenes --------------------------------------------------------------------------------------
-
-
-def faults_of(data: dict[str, Any]) -> list[str]:
-    with pytest.raises(errors.SceneError) as caught:
-        pbf.Scene(data)
-    return [line.strip() for line in str(caught.value).splitlines()[1:]]
 
 
 def test_a_scene_may_have_periodic_axes() -> None:

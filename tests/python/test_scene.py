@@ -11,18 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.limits import beyond
-from support.scenes import TINY
+from support.scenes import TINY, faults_of
 
 import pbfluids as pbf
 from pbfluids import toml
 from pbfluids.errors import InvalidParameter, SceneError
 from pbfluids.scene_model import DERIVED, STRUCTS, TABLES
-
-
-def faults_of(data):
-    with pytest.raises(SceneError) as caught:
-        pbf.Scene(data)
-    return [line.strip() for line in str(caught.value).splitlines()[1:]]
 
 
 def test_every_fault_is_listed_at_once_with_its_path(tiny):

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
+import pbfluids as pbf
+from pbfluids import errors
+
 # 64 particles, 3 frames.
 TINY: dict[str, Any] = {
     "schema": 1,
@@ -15,3 +20,10 @@ TINY: dict[str, Any] = {
     "domain": {"lower": [0.0, 0.0, 0.0], "upper": [0.4, 0.4, 0.2]},
     "blocks": [{"lower": [0.0, 0.0, 0.0], "upper": [0.2, 0.2, 0.2]}],
 }
+
+
+def faults_of(data: dict[str, Any]) -> list[str]:
+    """Every fault that the error names, a line each."""
+    with pytest.raises(errors.SceneError) as caught:
+        pbf.Scene(data)
+    return [line.strip() for line in str(caught.value).splitlines()[1:]]

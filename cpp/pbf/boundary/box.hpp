@@ -43,6 +43,10 @@ struct Box {
     return wrapped >= lower[axis] && wrapped < upper[axis] ? wrapped : lower[axis];
   }
   [[nodiscard]] bool is_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+  /// Axes along which fluid of so many dimensions meets no walls.
+  [[nodiscard]] Axes without_walls(int dimensions) const {
+    return {periodic[0], periodic[1], periodic[2] || dimensions == 2};
+  }
   /// The box that reaches to infinity along some axes.
   [[nodiscard]] Box open_along(const Axes& axes) const {
     Box box = *this;

@@ -5,8 +5,7 @@
 namespace pbf {
 
 WallLattice::WallLattice(const Box& box, Real spacing, Real h, int dimensions)
-    : walls_(
-          box.open_along({box.periodic[0], box.periodic[1], box.periodic[2] || dimensions == 2})),
+    : walls_(box.open_along(box.without_walls(dimensions))),
       spacing_(spacing),
       h_(h),
       dimensions_(dimensions),

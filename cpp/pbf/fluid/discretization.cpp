@@ -3,12 +3,6 @@
 namespace pbf {
 namespace {
 
-Calibration checked_calibration(const FluidParams& params) {
-  validate(params);
-  return calibrate(params.kernel_in_force(), params.dimensions, static_cast<double>(params.spacing),
-                   static_cast<double>(params.h()));
-}
-
 void check_periods(const Box& domain, const FluidParams& params) {
   if (params.dimensions == 2 && domain.periodic[2]) {
     throw InvalidParameter("domain: periodic = " + to_text(domain.periodic) +
@@ -32,10 +26,16 @@ void check_periods(const Box& domain, const FluidParams& params) {
 
 Discretization::Discretization(const FluidParams& params, const std::optional<Box>& box)
     : fluid(params), domain(box), h(params.h()) {
-  const Calibration calibration = checked_calibration(params);
+  validate(params);
+  // Of the rest lattice: find(choice, dimensions, spacing, h).
+  const auto of_lattice = [&](const auto& find) {
+    return find(params.kernel_in_force(), params.dimensions, static_cast<double>(params.spacing),
+                static_cast<double>(params.h()));
+  };
+  const Calibration calibration = of_lattice(calibrate);
   V = static_cast<Real>(calibration.volume);
   ideal_denominator = static_cast<Real>(calibration.ideal_denominator);
-  largest_eigenvalue = static_cast<Real>(calibration.largest_eigenvalue);
+  largest_eigenvalue = static_cast<Real>(of_lattice(pbf::largest_eigenvalue));
   if (!domain) return;
   validate(*domain);
   const Vec3 size = domain->upper - domain->lower;
@@ -46,9 +46,8 @@ Discretization::Discretization(const FluidParams& params, const std::optional<Bo
   }
   check_periods(*domain, params);
   const Vec3 radius = Vec3::Constant(params.spacing / 2);
-  const Axes& periodic = domain->periodic;
   centers = Box{.lower = domain->lower + radius, .upper = domain->upper - radius}.open_along(
-      {periodic[0], periodic[1], periodic[2] || params.dimensions == 2});
+      domain->without_walls(params.dimensions));
   walls.emplace(*domain, params.spacing, h, params.dimensions);
 }
 

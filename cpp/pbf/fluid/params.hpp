@@ -104,6 +104,10 @@ struct SolverParams {
     return method.value_or(iterations ? Method::plain : Method::pressure);
   }
 
+  /// Exactly so many with the plain method or if they are given, else the most.
+  [[nodiscard]] int iterations_in_force() const {
+    return iterations.value_or(method_in_force() == Method::plain ? 4 : max_iterations);
+  }
   /// A sum of iterations needs no pull: what pushed too far is taken back.
   [[nodiscard]] Real constraint_floor_in_force() const {
     return constraint_floor.value_or(method_in_force() == Method::plain ? -0.002F : 0.0F);

@@ -18,7 +18,7 @@ namespace pbf {
 /// and moves x* by the corrections of the multipliers δ. The bound is constraint_floor's, on the
 /// sum: a fluid pushes and does not pull (floor 0), yet a push may be taken back in a later
 /// iteration, which a floor on every single iteration forbids. ω is one over
-/// Calibration::largest_eigenvalue, the step that no error of the rest lattice overshoots. β grows
+/// largest_eigenvalue(), the step that no error of the rest lattice overshoots. β grows
 /// as momentum does in Nesterov's method, and starts again where the last way led uphill [OC15].
 /// Corrections are the antisymmetric ones of every iteration, so the fluid's momentum is kept for
 /// any δ.

@@ -185,7 +185,7 @@ StepReport Simulation::step(Real dt) {
 }
 
 void Simulation::iterate_plain(StepReport& report) {
-  for (const int count = solver_.iterations.value_or(4); report.iterations < count;
+  for (const int count = solver_.iterations_in_force(); report.iterations < count;
        ++report.iterations) {
     {
       const auto t = report.time(Stage::multipliers);
@@ -212,7 +212,7 @@ void Simulation::iterate_pressure(Real dt, StepReport& report) {
     const auto t = report.time(Stage::corrections);
     apply_corrections(near_, disc_, solver_, x_lambda_, state_.x, x_star_, u_);
   }
-  const int most = solver_.iterations.value_or(solver_.max_iterations);
+  const int most = solver_.iterations_in_force();
   const double enough = static_cast<double>(solver_.tolerance) * static_cast<double>(size());
   const double worst = static_cast<double>(solver_.max_tolerance.value_or(kInfinity));
   while (report.iterations < most) {

@@ -9,9 +9,25 @@
 namespace pbf {
 namespace {
 
+/// f(cell, r2, s) for every point of the lattice that can be within h, its squared distance and the
+/// s of ∇W = −s · r there.
+template <class Kernel, class F>
+void for_each_site(const Kernel& kernel, int dimensions, double spacing, F&& f) {
+  const int reach = static_cast<int>(std::ceil(kernel.h / spacing));
+  const int reach_z = dimensions == 2 ? 0 : reach;
+  for (int a = -reach; a <= reach; ++a) {
+    for (int b = -reach; b <= reach; ++b) {
+      for (int c = -reach_z; c <= reach_z; ++c) {
+        const double r2 = spacing * spacing * (a * a + b * b + c * c);
+        f(Eigen::Vector3i(a, b, c), r2, r2 > 0 ? kernel.slope(r2) : 0);
+      }
+    }
+  }
+}
+
 /// A lattice point and −∇W there.
 struct Site {
-  std::array<int, 3> cell;
+  Eigen::Vector3i cell;
   Eigen::Vector3d grad;
 };
 
@@ -48,26 +64,27 @@ Calibration calibrate(KernelChoice choice, int dimensions, double spacing, doubl
                            " m), and the spacing greater than 0");
   }
   return with_kernel<double>(choice, dimensions, h, [&](const auto& kernel) {
-    const int reach = static_cast<int>(std::ceil(h / spacing));
-    const int reach_z = dimensions == 2 ? 0 : reach;
     double sum_W = 0;
     double sum_grad2 = 0;  // Σ ‖∇W‖²; the lattice is symmetric, so ∇_i C = V Σ ∇W = 0 adds nothing
-    std::vector<Site> sites;
-    for (int a = -reach; a <= reach; ++a) {
-      for (int b = -reach; b <= reach; ++b) {
-        for (int c = -reach_z; c <= reach_z; ++c) {
-          const double r2 = spacing * spacing * (a * a + b * b + c * c);
-          const double s = r2 > 0 ? kernel.slope(r2) : 0;
-          sum_W += kernel.W(r2);
-          sum_grad2 += s * s * r2;
-          if (s > 0) sites.push_back({{a, b, c}, s * spacing * Eigen::Vector3d(a, b, c)});
-        }
-      }
-    }
+    for_each_site(kernel, dimensions, spacing, [&](const auto&, double r2, double s) {
+      sum_W += kernel.W(r2);
+      sum_grad2 += s * s * r2;
+    });
     const double volume = 1 / sum_W;
-    return Calibration{.volume = volume,
-                       .ideal_denominator = volume * volume * sum_grad2,
-                       .largest_eigenvalue = largest_symbol(sites) / sum_grad2};
+    return Calibration{.volume = volume, .ideal_denominator = volume * volume * sum_grad2};
+  });
+}
+
+double largest_eigenvalue(KernelChoice choice, int dimensions, double spacing, double h) {
+  return with_kernel<double>(choice, dimensions, h, [&](const auto& kernel) {
+    std::vector<Site> sites;
+    double sum_grad2 = 0;
+    for_each_site(kernel, dimensions, spacing,
+                  [&](const Eigen::Vector3i& cell, double r2, double s) {
+                    sum_grad2 += s * s * r2;
+                    if (s > 0) sites.push_back({cell, s * spacing * cell.cast<double>()});
+                  });
+    return largest_symbol(sites) / sum_grad2;
   });
 }
 

@@ -62,15 +62,18 @@ void Crowding::find(const PointsView& positions, const Vec3& eye, Real s) {
     sorted_[k].w += u * u;
     return sorted_[k].w < kBody;
   });
-  for (Index k = 0; k < near_.size(); ++k)
-    near_[k].w = sorted_[k].w = std::min(sorted_[k].w, kBody);
-  for_each_pair(grid_, sorted_, s, [&](std::uint32_t k, std::uint32_t j, Real u) {
-    near_[k].w = std::max(near_[k].w, std::min(1.5F * u, Real{1}) * sorted_[j].w);
-    return near_[k].w < kBody;
-  });
-  for (Index k = 0; k < near_.size(); ++k) {
-    particles_[ids_[order[static_cast<std::size_t>(k)]]].w = near_[k].w / kBody;
+  const auto crowding = [&](Index k) -> Real& {
+    return particles_[ids_[order[static_cast<std::size_t>(k)]]].w;
+  };
+  for (Index k = 0; k < sorted_.size(); ++k) {
+    crowding(k) = sorted_[k].w = std::min(sorted_[k].w, kBody);
   }
+  for_each_pair(grid_, sorted_, s, [&](std::uint32_t k, std::uint32_t j, Real u) {
+    Real& c = crowding(k);
+    c = std::max(c, std::min(1.5F * u, Real{1}) * sorted_[j].w);
+    return c < kBody;
+  });
+  for (Index k = 0; k < sorted_.size(); ++k) crowding(k) /= kBody;
 }
 
 }  // namespace pbf

@@ -113,6 +113,7 @@ TEST_CASE("calibration: the largest eigenvalue is that of a periodic lattice's m
   for (const KernelChoice choice :
        {KernelChoice::poly6_spiky, KernelChoice::cubic_spline, KernelChoice::wendland}) {
     const Calibration c = calibrate(choice, 3, 1.0, 2.0);
+    const double largest = largest_eigenvalue(choice, 3, 1.0, 2.0);
     std::vector<Eigen::Vector3i> offsets;
     std::vector<Eigen::Vector3d> grads;  // V ∇W_ij for j = i + offset
     with_kernel<double>(choice, 3, 2.0, [&](const auto& kernel) {
@@ -149,8 +150,8 @@ TEST_CASE("calibration: the largest eigenvalue is that of a periodic lattice's m
       eigenvalue = change.norm() / lambda.norm();
       lambda = change.normalized();
     }
-    CHECK(eigenvalue <= c.largest_eigenvalue * (1 + 1e-9));
-    CHECK(eigenvalue > 0.93 * c.largest_eigenvalue);  // their wave vectors are four times as dense
+    CHECK(eigenvalue <= largest * (1 + 1e-9));
+    CHECK(eigenvalue > 0.93 * largest);  // their wave vectors are four times as dense
   }
 }
 
