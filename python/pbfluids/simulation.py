@@ -267,10 +267,12 @@ class Simulation:
 
     @property
     def pressures(self) -> NDArray[np.float32]:
-        """Pressures of the last time step, -rest_density * (its multipliers' sum) / dt^2 [Pa].
+        """Pressures of the last time step, shape (n,) [Pa]; 0 before the first step.
 
-        Shape (n,), 0 before the first step. With the pressure method this is the fluid's pressure;
-        the plain method's few iterations find a part of it.
+        What its corrections amount to as forces: a third of the trace of the mean virial [IK50]_ of
+        -rest_density * (sum of the step's multipliers) / dt^2, half of a pair's force to either
+        side. With the pressure method this is the fluid's pressure; the plain method's few
+        iterations find a part of it. Found when asked for, at the cost of a neighbor search.
         """
         return self._core.pressures()
 

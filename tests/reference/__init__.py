@@ -30,7 +30,7 @@ from reference.kernels import (
 )
 from reference.neighbors import Neighbors, find_neighbors, pairs_within
 from reference.params import Box, Fluid, Solver
-from reference.pressure import largest_eigenvalue, solve_pressures
+from reference.pressure import largest_eigenvalue, solve_pressures, virial_pressures
 from reference.solver import (
     State,
     confine,
@@ -68,6 +68,7 @@ __all__ = [
     "solve_pressures",
     "spiky_gradient",
     "step",
+    "virial_pressures",
     "vorticity",
     "wendland",
     "wendland_gradient",

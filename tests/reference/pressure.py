@@ -26,6 +26,21 @@ def largest_eigenvalue(fluid: Fluid) -> float:
     return float(symbol.max() / np.sum(grad_W**2))
 
 
+def virial_pressures(x: Array, totals: Array, near: Neighbors, fluid: Fluid, dt: float) -> Array:
+    """p_i [Pa], a third of the trace of the mean virial of the forces that multipliers stand for.
+
+    p_i = V / (2 n) sum_k (p'_i + p'_k) (x_i - x_k).(-grad W_ik)      p' = -rho0 total / dt^2
+
+    n dimensions, k over neighbors and boundary particles; p' = 0 for the latter.
+    """
+    volume, _ = calibration(fluid)
+    p = -fluid.rest_density * totals / dt**2
+    r, r_q = near.r(x), near.r_boundary(x)
+    pairs = (p[near.i] + p[near.j]) * -np.sum(r * kernel(fluid, r)[1], axis=1)
+    walls = p[near.boundary_i] * -np.sum(r_q * kernel(fluid, r_q)[1], axis=1)
+    return volume / (2 * fluid.dimensions) * (near.sum(pairs) + near.sum_boundary(walls))
+
+
 def solve_pressures(
     x_star: Array,
     start: Array,

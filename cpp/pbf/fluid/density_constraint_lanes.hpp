@@ -79,6 +79,27 @@ void pressures(const Kernel& VW,
   });
 }
 
+/// The sum of fluid/pressure.hpp's mean virial, without its factor.
+template <class Kernel>
+void virials(const Kernel& VW, const Stretch& at, const Record* x_p, Record* virial) {
+  for_each_slice(at, [&](const Slice& slice) PBF_LAMBDA_INLINE {
+    const RecordLanes i = load_records(x_p + slice.first);
+    Lanes sum = 0;
+    slice.for_each_neighbor([&](const std::uint32_t* entries) PBF_LAMBDA_INLINE {
+      const RecordLanes j = gather(x_p, entries);
+      const Vec3Lanes r = i.xyz - j.xyz;
+      const Lanes r2 = dot(r, r);
+      sum += (i.w + j.w) * (VW.slope(r2) * r2);
+    });
+    slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
+      const Vec3Lanes r = i.xyz - q;
+      const Lanes r2 = dot(r, r);
+      sum += i.w * (VW.slope(r2) * r2);
+    });
+    store_records(virial + slice.first, i.xyz, sum);
+  });
+}
+
 /// s_ij, with the exponent known to the compiler; 0: none; −1: any, looked up.
 /// Powers end at 1e-24 and 1e-30: W falls to nothing towards the support radius, and numbers below
 /// float32's normal range (1e-38) cost a processor more than the whole pair.

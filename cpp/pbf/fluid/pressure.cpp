@@ -20,6 +20,19 @@ PressureErrors& PressureErrors::operator+=(const PressureErrors& other) {
   return *this;
 }
 
+void virial_pressures(const Neighborhood& near,
+                      const Discretization& disc,
+                      const Records& x_p,
+                      int threads,
+                      Records& p) {
+  p.resize(x_p.size());
+  sweep(near, disc, threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
+    loops.virials(VW, at, x_p.data(), p.data());
+  });
+  const Real share = 0.5F / static_cast<Real>(disc.fluid.dimensions);
+  parallel_for(p.size(), threads, [&](Index i) { p[i].w *= share; });
+}
+
 void PressureSolve::begin(const Neighborhood& near,
                           const Records& x_star,
                           const Records& v_density,

@@ -334,30 +334,40 @@ void Simulation::measure(StepReport& report) {
 Points Simulation::positions() const { return scattered(points_of(state_.x), state_.ids); }
 Points Simulation::velocities() const { return scattered(points_of(state_.v), state_.ids); }
 Scalars Simulation::multipliers() const { return scattered(scalars_of(state_.x), state_.ids); }
-Scalars Simulation::pressures() const {
-  Scalars totals(size());
-  const Real scale = last_dt_ > 0 ? -disc_.fluid.rest_density / square(last_dt_) : 0;
-  for (Index i = 0; i < size(); ++i) {
-    totals[i] = scale * state_.totals[static_cast<std::size_t>(i)];
-  }
-  return scattered(totals, state_.ids);
-}
 Ids Simulation::ids() const { return consecutive(0, size()); }
 
-Scalars Simulation::densities() const {
-  // Found anew, since particles may have been added after the last step.
-  const int threads = solver_.num_threads;
+/// What f(near, (x, Λ), result) leaves in the fourth numbers of result, by id. Who is near whom is
+/// found anew, since particles may have been added after the last step.
+template <class F>
+Scalars Simulation::found_anew(Real factor, F&& f) const {
   CellGrid grid;
   Neighborhood near;
-  Records unsorted = state_.x, x(size()), density;
-  near.sort(unsorted, disc_, threads, grid);
+  Records unsorted = state_.x, x(size()), result;
+  near.sort(unsorted, disc_, solver_.num_threads, grid);
   const auto order = std::span(grid.order()).first(static_cast<std::size_t>(size()));
-  for (Index k = 0; k < size(); ++k) x[k] = state_.x[order[static_cast<std::size_t>(k)]];
-  near.build(grid, disc_, threads, x);
-  relative_densities(near, disc_, x, threads, density);
-  density.resize(size());
-  const Scalars in_state_order = scattered(scalars_of(density), order);
-  return disc_.fluid.rest_density * scattered(in_state_order, state_.ids);
+  for (Index k = 0; k < size(); ++k) {
+    const std::uint32_t from = order[static_cast<std::size_t>(k)];
+    x[k] = state_.x[from];
+    x[k].w = state_.totals[from];
+  }
+  near.build(grid, disc_, solver_.num_threads, x);
+  f(near, x, result);
+  result.resize(size());
+  const Scalars in_state_order = scattered(scalars_of(result), order);
+  return factor * scattered(in_state_order, state_.ids);
+}
+
+Scalars Simulation::densities() const {
+  return found_anew(disc_.fluid.rest_density, [&](const auto& near, const auto& x, Records& rho) {
+    relative_densities(near, disc_, x, solver_.num_threads, rho);
+  });
+}
+
+Scalars Simulation::pressures() const {
+  const Real per_multiplier = last_dt_ > 0 ? -disc_.fluid.rest_density / square(last_dt_) : 0;
+  return found_anew(per_multiplier, [&](const auto& near, const auto& x_total, Records& p) {
+    virial_pressures(near, disc_, x_total, solver_.num_threads, p);
+  });
 }
 
 std::size_t Simulation::bytes() const {

@@ -49,7 +49,7 @@ class Simulation {
   [[nodiscard]] Scalars multipliers()
       const;  ///< λ_i of the last iteration [m²], zero before the first step
   [[nodiscard]] Scalars pressures()
-      const;  ///< p_i = −ρ0 Λ_i / Δt² of the last step [Pa], zero before the first
+      const;  ///< p_i of the last step (fluid/pressure.hpp) [Pa], zero before the first
   [[nodiscard]] Ids ids() const;
   /// Memory held, neighbor lists included [bytes].
   [[nodiscard]] std::size_t bytes() const;
@@ -66,6 +66,8 @@ class Simulation {
   void iterate_plain(StepReport& report);
   void iterate_pressure(Real dt, StepReport& report);
   void measure(StepReport& report);
+  template <class F>
+  [[nodiscard]] Scalars found_anew(Real factor, F&& f) const;
   [[nodiscard]] Real cfl_time_step() const;
 
   Discretization disc_;

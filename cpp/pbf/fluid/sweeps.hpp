@@ -65,6 +65,8 @@ struct Sweeps {
                       const Record* x,
                       Record* x_star,
                       Record* u);
+  /// (·, sum of the virial) from (x, p̂)
+  void (*virials)(const Kernel& VW, const Stretch& at, const Record* x_p, Record* virial);
   /// (·, ρ/ρ0) from x
   void (*densities)(const Kernel& VW, const Stretch& at, const Record* x, Record* density);
   /// (v, ρ/ρ0) from x and v

@@ -7,9 +7,9 @@ namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
 
 template <class Kernel>
-constexpr Sweeps<Kernel> kSweeps{multipliers<Kernel>, pressures<Kernel>, corrections<Kernel>,
-                                 densities<Kernel>,   xsph<Kernel>,      vorticity<Kernel>,
-                                 confinement<Kernel>};
+constexpr Sweeps<Kernel> kSweeps{multipliers<Kernel>, pressures<Kernel>,  corrections<Kernel>,
+                                 virials<Kernel>,     densities<Kernel>,  xsph<Kernel>,
+                                 vorticity<Kernel>,   confinement<Kernel>};
 
 }  // namespace
 
