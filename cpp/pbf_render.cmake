@@ -24,6 +24,8 @@ add_library(pbf_render STATIC
   pbf/render/passes/thickness_smooth.cpp
   pbf/render/passes/normal.cpp
   pbf/render/passes/composite.cpp
+  pbf/render/raster/tiles.cpp
+  pbf/render/raster/map.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core
