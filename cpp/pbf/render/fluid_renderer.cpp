@@ -4,11 +4,10 @@
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/passes/composite.hpp"
-#include "pbf/render/passes/depth_smooth.hpp"
 #include "pbf/render/passes/normal.hpp"
+#include "pbf/render/passes/smooth.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
 #include "pbf/render/passes/thickness.hpp"
-#include "pbf/render/passes/thickness_smooth.hpp"
 #include "pbf/render/read_back.hpp"
 
 #include <chrono>
@@ -63,8 +62,7 @@ struct FluidRenderer::Passes {
   Sprites sprites;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
-  DepthSmooth depth_smooth{glsl_source};
-  ThicknessSmooth thickness_smooth{glsl_source};
+  Smooth smooth{glsl_source};
   Normal normal{glsl_source};
   Composite composite{glsl_source};
 };
@@ -156,16 +154,16 @@ Surface FluidRenderer::draw(const PointsView& positions,
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
     for (int k = 0; k < params.smoothing_iterations; ++k) {
-      pass.depth_smooth(to.tiles, *depth, to.depth.texture, params, to.between.framebuffer,
-                        to.between.texture, to.depth_smooth.framebuffer);
+      pass.smooth(depth_filter(params), to.tiles, *depth, to.depth.texture, to.between.framebuffer,
+                  to.between.texture, to.depth_smooth.framebuffer);
       depth = &to.depth_smooth.texture;
     }
   });
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
     for (int k = 0; k < params.thickness_iterations; ++k) {
-      pass.thickness_smooth(to.tiles, *thickness, to.depth.texture, params, to.between.framebuffer,
-                            to.between.texture, to.thickness_smooth.framebuffer);
+      pass.smooth(thickness_filter(params), to.tiles, *thickness, to.depth.texture,
+                  to.between.framebuffer, to.between.texture, to.thickness_smooth.framebuffer);
       thickness = &to.thickness_smooth.texture;
     }
   });
