@@ -14,6 +14,7 @@ add_library(pbf_render STATIC
   pbf/render/params.cpp
   pbf/render/crowding.cpp
   pbf/render/layer_filter.cpp
+  pbf/render/crowding_kernels.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -27,14 +28,19 @@ add_library(pbf_render STATIC
   pbf/render/raster/tiles.cpp
   pbf/render/raster/map.cpp
   pbf/render/raster/smooth.cpp
+  pbf/render/raster/splat_kernels.cpp
+  pbf/render/raster/splats.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core
   PRIVATE ${CMAKE_DL_LIBS} OpenMP::OpenMP_CXX $<BUILD_INTERFACE:pbf_warnings>)
 target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
 
-# The loops over pixels.
-pbf_add_lanes(pbf_render pbf/render/raster/smooth_lanes.cpp)
+# The loops over particles and pixels.
+pbf_add_lanes(pbf_render
+  pbf/render/crowding_lanes.cpp
+  pbf/render/raster/splats_lanes.cpp
+  pbf/render/raster/smooth_lanes.cpp)
 
 pbf_embed_glsl(pbf_render
   frame.glsl

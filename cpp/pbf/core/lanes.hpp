@@ -59,6 +59,21 @@ struct Lanes {
   friend PBF_INLINE Mask operator==(Lanes a, Lanes b) { return {a.v == b.v}; }
 };
 
+PBF_INLINE Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
+/// Bit k says whether lane k is set.
+PBF_INLINE unsigned bits(Mask mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask.v));
+#elif defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)));
+#else
+  unsigned result = 0;
+  for (int lane = 0; lane < kLanes; ++lane) result |= mask.v[lane] != 0 ? 1U << lane : 0U;
+  return result;
+#endif
+}
+PBF_INLINE bool any(Mask mask) { return bits(mask) != 0; }
+
 /// a where the mask holds, b elsewhere.
 PBF_INLINE Lanes select(Mask mask, Lanes a, Lanes b) { return {mask.v ? a.v : b.v}; }
 
@@ -123,6 +138,7 @@ PBF_INLINE T load(const void* from) {
   return value;
 }
 PBF_INLINE Lanes load_lanes(const Real* from) { return load<Lanes>(from); }
+PBF_INLINE void store(Real* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 
 /// A vector of space for each of kLanes particles.
 struct Vec3Lanes {
