@@ -30,6 +30,7 @@ add_library(pbf_render STATIC
   pbf/render/raster/smooth.cpp
   pbf/render/raster/splat_kernels.cpp
   pbf/render/raster/splats.cpp
+  pbf/render/raster/surface_maps.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core

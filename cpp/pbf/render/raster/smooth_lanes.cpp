@@ -17,7 +17,6 @@ using Kind = SmoothTerms::Kind;
 
 constexpr float kMostPixels = 65536;
 
-PBF_INLINE void store(float* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 
 PBF_INLINE float highest(Lanes a) {
   float result = a.v[0];
