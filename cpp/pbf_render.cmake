@@ -13,6 +13,8 @@ add_library(pbf_render STATIC
   pbf/render/camera.cpp
   pbf/render/params.cpp
   pbf/render/crowding.cpp
+  pbf/render/layer_filter.cpp
+  pbf/render/crowding_kernels.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -20,14 +22,27 @@ add_library(pbf_render STATIC
   pbf/render/passes/fluid_tiles.cpp
   pbf/render/passes/sphere_depth.cpp
   pbf/render/passes/thickness.cpp
-  pbf/render/passes/depth_smooth.cpp
-  pbf/render/passes/thickness_smooth.cpp
+  pbf/render/passes/smooth.cpp
   pbf/render/passes/normal.cpp
   pbf/render/passes/composite.cpp
+  pbf/render/raster/tiles.cpp
+  pbf/render/raster/map.cpp
+  pbf/render/raster/smooth.cpp
+  pbf/render/raster/splat_kernels.cpp
+  pbf/render/raster/splats.cpp
+  pbf/render/raster/surface_maps.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core
   PRIVATE ${CMAKE_DL_LIBS} OpenMP::OpenMP_CXX $<BUILD_INTERFACE:pbf_warnings>)
+target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
+
+# The loops over particles and pixels.
+pbf_add_lanes(pbf_render
+  pbf/render/crowding_lanes.cpp
+  pbf/render/raster/splats_lanes.cpp
+  pbf/render/raster/smooth_lanes.cpp)
+
 pbf_embed_glsl(pbf_render
   frame.glsl
   sprite.vert
@@ -36,9 +51,7 @@ pbf_embed_glsl(pbf_render
   thickness.frag
   fullscreen.vert
   fluid_tiles.vert
-  smooth.glsl
-  depth_smooth.frag
-  thickness_smooth.frag
+  smooth.frag
   normal.frag
   environment.glsl
   display.glsl

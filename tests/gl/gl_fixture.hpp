@@ -32,10 +32,10 @@ class GlFixture {
         width_(width),
         height_(height),
         camera_(camera),
+        block_(frame_block(camera, width, height)),
         frame_(GL_UNIFORM_BUFFER),
         tiles_(width, height) {
-    const FrameBlock block = frame_block(camera, width, height);
-    frame_.upload(&block, sizeof block);
+    frame_.upload(&block_, sizeof block_);
     frame_.bind_base(0);
     // One sphere around the eye reaches every tile.
     tiles_.find(Points(camera.eye), camera, camera.far / 2);
@@ -74,6 +74,7 @@ class GlFixture {
     return data;
   }
   [[nodiscard]] const FluidTiles& tiles() const { return tiles_; }
+  [[nodiscard]] const FrameBlock& frame() const { return block_; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] std::size_t at(int x, int y) const {
@@ -86,6 +87,7 @@ class GlFixture {
   EglContext::Current current_;
   int width_, height_;
   Camera camera_;
+  FrameBlock block_;
   Buffer frame_;
   FluidTiles tiles_;
 };

@@ -1,7 +1,10 @@
+#include "pbf/core/isa.hpp"
 #include "pbf/render/crowding.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <random>
 
 using namespace pbf;
@@ -88,4 +91,31 @@ TEST_CASE("crowding: piles, and particles too far away to be seen, are bodies") 
 
 TEST_CASE("crowding: with s = 0 nothing is looked at and all is a body") {
   CHECK((crowding(lattice(3, 1, 1), 0) == 1).all());
+}
+
+TEST_CASE("crowding: the same bits for any number of threads and every instruction set") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<Real> anywhere(0, 1);
+  Points x(3, 20000);
+  for (Index i = 0; i < x.cols(); ++i) {
+    const Real side = i < 15000 ? 24 : 60;  // a body in spray
+    x.col(i) = side * Vec3(anywhere(random), anywhere(random), anywhere(random));
+  }
+  const auto found = [&](int threads) {
+    Crowding crowding;
+    crowding.find(x, kOrigin, 2.4F, threads);
+    std::vector<Real> c;
+    for (Index i = 0; i < x.cols(); ++i) c.push_back(crowding.particles()[i].w);
+    return c;
+  };
+  const std::vector<Real> expected = found(1);
+  CHECK(std::ranges::count(expected, 1) > 5000);
+  CHECK(std::ranges::count_if(expected, [](Real c) { return c < 0.5F; }) > 1000);
+  for (const int threads : {2, 3, 7}) CHECK(found(threads) == expected);
+  for (const Isa isa : usable_isas()) {
+    setenv("PBF_ISA", isa_name(isa), 1);
+    CAPTURE(isa_name(isa));
+    CHECK(found(2) == expected);
+  }
+  unsetenv("PBF_ISA");
 }

@@ -59,6 +59,21 @@ struct Lanes {
   friend PBF_INLINE Mask operator==(Lanes a, Lanes b) { return {a.v == b.v}; }
 };
 
+PBF_INLINE Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
+/// Bit k says whether lane k is set.
+PBF_INLINE unsigned bits(Mask mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask.v));
+#elif defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)));
+#else
+  unsigned result = 0;
+  for (int lane = 0; lane < kLanes; ++lane) result |= mask.v[lane] != 0 ? 1U << lane : 0U;
+  return result;
+#endif
+}
+PBF_INLINE bool any(Mask mask) { return bits(mask) != 0; }
+
 /// a where the mask holds, b elsewhere.
 PBF_INLINE Lanes select(Mask mask, Lanes a, Lanes b) { return {mask.v ? a.v : b.v}; }
 
@@ -73,6 +88,17 @@ PBF_INLINE Lanes max(Lanes a, Lanes b) {
 #endif
 }
 
+/// a < b ? a : b, b where one is not a number.
+PBF_INLINE Lanes min(Lanes a, Lanes b) {
+#if defined(__AVX512F__)
+  return {_mm512_min_ps(a.v, b.v)};
+#elif defined(__AVX2__)
+  return {_mm256_min_ps(a.v, b.v)};
+#else
+  return select(a < b, a, b);
+#endif
+}
+
 PBF_INLINE Lanes sqrt(Lanes a) {
 #if defined(__AVX512F__)
   return {_mm512_sqrt_ps(a.v)};
@@ -84,6 +110,27 @@ PBF_INLINE Lanes sqrt(Lanes a) {
 #endif
 }
 
+/// Next whole number upwards, of numbers within ±2^31.
+PBF_INLINE Lanes ceil(Lanes a) {
+  const Lanes cut = {
+      __builtin_convertvector(__builtin_convertvector(a.v, Mask::Vector), Lanes::Vector)};
+  return select(cut < a, cut + Lanes(1), cut);
+}
+
+/// e^a within two units in the last place, of -87 for less, of 88 for more.
+PBF_INLINE Lanes exp(Lanes a) {
+  a = min(max(a, Lanes(-87)), Lanes(88));
+  // a = n ln 2 + r, |r| <= ln 2 / 2; adding 1.5 * 2^23 rounds to whole numbers.
+  const Lanes n = (a * Lanes(1.44269504F) + Lanes(12582912)) - Lanes(12582912);
+  const Lanes r = (a - n * Lanes(0.693359375F)) + n * Lanes(2.12194440e-4F);
+  Lanes sum = Lanes(1.0F / 5040);
+  for (const Real factor : {1.0F / 720, 1.0F / 120, 1.0F / 24, 1.0F / 6, 0.5F, 1.0F, 1.0F}) {
+    sum = sum * r + Lanes(factor);
+  }
+  const auto power = (__builtin_convertvector(n.v, Mask::Vector) + 127) << 23;
+  return sum * Lanes(reinterpret_cast<Lanes::Vector>(power));
+}
+
 template <class T>
 PBF_INLINE T load(const void* from) {
   T value;
@@ -91,6 +138,7 @@ PBF_INLINE T load(const void* from) {
   return value;
 }
 PBF_INLINE Lanes load_lanes(const Real* from) { return load<Lanes>(from); }
+PBF_INLINE void store(Real* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 
 /// A vector of space for each of kLanes particles.
 struct Vec3Lanes {

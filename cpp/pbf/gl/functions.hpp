@@ -70,6 +70,7 @@ inline constexpr GLenum GL_DEPTH_TEST = 0x0B71;
 inline constexpr GLenum GL_BLEND = 0x0BE2;
 inline constexpr GLenum GL_UNPACK_ALIGNMENT = 0x0CF5;
 inline constexpr GLenum GL_PACK_ALIGNMENT = 0x0D05;
+inline constexpr GLenum GL_UNPACK_ROW_LENGTH = 0x0CF2;
 inline constexpr GLenum GL_MAX_TEXTURE_SIZE = 0x0D33;
 inline constexpr GLenum GL_TEXTURE_2D = 0x0DE1;
 inline constexpr GLenum GL_UNSIGNED_BYTE = 0x1401;

@@ -105,6 +105,17 @@ PBF_GL(void,
         GLenum type,
         const void* data))
 PBF_GL(void, glTexParameteri, (GLenum target, GLenum name, GLint value))
+PBF_GL(void,
+       glTexSubImage2D,
+       (GLenum target,
+        GLint level,
+        GLint x,
+        GLint y,
+        GLsizei width,
+        GLsizei height,
+        GLenum format,
+        GLenum type,
+        const void* data))
 PBF_GL(void, glUniform1f, (GLint location, GLfloat x))
 PBF_GL(void, glUniform1i, (GLint location, GLint x))
 PBF_GL(void, glUniform2i, (GLint location, GLint x, GLint y))

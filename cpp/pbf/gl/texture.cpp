@@ -22,7 +22,7 @@ Layout layout_of(Format format) {
 }  // namespace
 
 Texture::Texture(int width, int height, Format format, const void* data)
-    : width_(width), height_(height) {
+    : width_(width), height_(height), format_(format) {
   const Layout layout = layout_of(format);
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -32,6 +32,14 @@ Texture::Texture(int width, int height, Format format, const void* data)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(layout.internal), width, height, 0,
                layout.format, layout.type, data);
+}
+
+void Texture::upload(const void* data, int pitch) const {
+  const Layout layout = layout_of(format_);
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, pitch);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, layout.format, layout.type, data);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 void Texture::bind(int unit) const {

@@ -13,6 +13,9 @@ class Texture {
   /// @param data  rows from the bottom up in the format's own type, or null for undefined content
   Texture(int width, int height, Format format, const void* data = nullptr);
   void bind(int unit) const;
+  /// Replaces the content.
+  /// @param pitch  pixels from one row of the data to the next
+  void upload(const void* data, int pitch) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -20,6 +23,7 @@ class Texture {
  private:
   GlHandle<TextureKind> handle_;
   int width_, height_;
+  Format format_;
 };
 
 }  // namespace pbf

@@ -11,8 +11,7 @@ namespace {
 
 using Entries = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 
-PBF_INLINE void store(void* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
-PBF_INLINE void store(void* to, Entries value) { std::memcpy(to, &value, sizeof value); }
+PBF_INLINE void store(std::uint32_t* to, Entries value) { std::memcpy(to, &value, sizeof value); }
 
 Entries lane_numbers() {
   Entries numbers{};
@@ -122,10 +121,10 @@ void pack(const std::uint32_t* const* rows,
     };
     const Columns c = transposed({every_fourth(0, four), every_fourth(1, four),
                                   every_fourth(2, four), every_fourth(3, four)});
-    store(out, Lanes(c.c0));
-    store(out + kLanes, Lanes(c.c1));
-    store(out + 2 * kLanes, Lanes(c.c2));
-    store(out + 3 * kLanes, Lanes(c.c3));
+    store(out, reinterpret_cast<Entries>(c.c0));
+    store(out + kLanes, reinterpret_cast<Entries>(c.c1));
+    store(out + 2 * kLanes, reinterpret_cast<Entries>(c.c2));
+    store(out + 3 * kLanes, reinterpret_cast<Entries>(c.c3));
     out += 4 * kLanes;
   }
 }

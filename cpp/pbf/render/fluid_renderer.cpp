@@ -4,11 +4,11 @@
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/passes/composite.hpp"
-#include "pbf/render/passes/depth_smooth.hpp"
 #include "pbf/render/passes/normal.hpp"
+#include "pbf/render/passes/smooth.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
 #include "pbf/render/passes/thickness.hpp"
-#include "pbf/render/passes/thickness_smooth.hpp"
+#include "pbf/render/raster/surface_maps.hpp"
 #include "pbf/render/read_back.hpp"
 
 #include <chrono>
@@ -51,6 +51,15 @@ void require_no_gl_error() {
   }
 }
 
+bool is_software(const EglContext::Info& driver) {
+  return driver.renderer.find("llvmpipe") != std::string::npos ||
+         driver.renderer.find("softpipe") != std::string::npos;
+}
+
+void upload(const raster::Map& map, const Texture& texture) {
+  texture.upload(map.row(0), static_cast<GLint>(map.pitch()));
+}
+
 }  // namespace
 
 /// Compiled once. Which of the two ways depth and thickness come about is the driver's ability.
@@ -63,8 +72,7 @@ struct FluidRenderer::Passes {
   Sprites sprites;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
-  DepthSmooth depth_smooth{glsl_source};
-  ThicknessSmooth thickness_smooth{glsl_source};
+  Smooth smooth{glsl_source};
   Normal normal{glsl_source};
   Composite composite{glsl_source};
 };
@@ -98,13 +106,17 @@ struct FluidRenderer::Targets {
   FluidTiles tiles;                 ///< where any of these can hold fluid
 };
 
-FluidRenderer::FluidRenderer(int width, int height)
+FluidRenderer::FluidRenderer(int width, int height, SurfacePasses surface)
     : width_(checked_side(width, "width")), height_(checked_side(height, "height")) {
   const auto current = context_.make_current();
   require_drawable(width, height);
   auto passes = std::make_unique<Passes>(context_.has_version(4, 0));
   auto targets = std::make_unique<Targets>(width, height);
   require_no_gl_error();
+  const bool outrun = is_software(context_.info());
+  if (surface == SurfacePasses::cpp || (surface == SurfacePasses::automatic && outrun)) {
+    maps_ = std::make_unique<raster::SurfaceMaps>(width, height);
+  }
   passes_ = std::move(passes);
   targets_ = std::move(targets);
 }
@@ -134,16 +146,38 @@ void FluidRenderer::stage(const char* name, F&& pass) {
 Surface FluidRenderer::draw(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params) {
+  report_ = {.particles = positions.cols(), .milliseconds = {}};
+  const FrameBlock frame = frame_block(camera, width_, height_);
+  passes_->frame.upload(&frame, sizeof frame);
+  passes_->frame.bind_base(0);
+  return maps_ ? draw_in_cpp(positions, camera, params) : draw_in_glsl(positions, camera, params);
+}
+
+Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
+                                   const Camera& camera,
+                                   const RenderParams& params) {
+  Targets& to = *targets_;
+  maps_->find(positions, camera, params);
+  if (timed_) report_.milliseconds = maps_->milliseconds();
+  stage("upload", [&] {
+    upload(maps_->depth_smooth(), to.depth_smooth.texture);
+    upload(maps_->thickness_smooth(), to.thickness_smooth.texture);
+    to.tiles.upload(maps_->tiles());
+  });
+  stage("normal",
+        [&] { passes_->normal(to.tiles, to.depth_smooth.texture, to.normal.framebuffer); });
+  return {to.tiles, to.depth_smooth.texture, to.thickness_smooth.texture, to.normal.texture};
+}
+
+Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
+                                    const Camera& camera,
+                                    const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
-  report_ = {.particles = positions.cols(), .milliseconds = {}};
   stage("crowding", [&] {
     pass.crowding.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0);
   });
   stage("upload", [&] {
-    const FrameBlock frame = frame_block(camera, width_, height_);
-    pass.frame.upload(&frame, sizeof frame);
-    pass.frame.bind_base(0);
     pass.sprites.upload(pass.crowding.particles());
     to.tiles.find(positions, camera, params.radius);
   });
@@ -156,16 +190,16 @@ Surface FluidRenderer::draw(const PointsView& positions,
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
     for (int k = 0; k < params.smoothing_iterations; ++k) {
-      pass.depth_smooth(to.tiles, *depth, to.depth.texture, params, to.between.framebuffer,
-                        to.between.texture, to.depth_smooth.framebuffer);
+      pass.smooth(depth_filter(params), to.tiles, *depth, to.depth.texture, to.between.framebuffer,
+                  to.between.texture, to.depth_smooth.framebuffer);
       depth = &to.depth_smooth.texture;
     }
   });
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
     for (int k = 0; k < params.thickness_iterations; ++k) {
-      pass.thickness_smooth(to.tiles, *thickness, to.depth.texture, params, to.between.framebuffer,
-                            to.between.texture, to.thickness_smooth.framebuffer);
+      pass.smooth(thickness_filter(params), to.tiles, *thickness, to.depth.texture,
+                  to.between.framebuffer, to.between.texture, to.thickness_smooth.framebuffer);
       thickness = &to.thickness_smooth.texture;
     }
   });
@@ -199,6 +233,10 @@ Layers FluidRenderer::layers(const PointsView& positions,
   const Surface surface = draw(positions, camera, params);
   Layers layers;
   stage("read_back", [&] {
+    if (maps_ != nullptr) {
+      upload(maps_->depth(), targets_->depth.texture);
+      upload(maps_->thickness(), targets_->thickness.texture);
+    }
     layers = {.depth = read_depth(targets_->depth.texture, camera),
               .depth_smooth = read_depth(surface.depth, camera),
               .thickness = read_floats(targets_->thickness.texture, 1),

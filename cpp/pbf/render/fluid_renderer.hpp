@@ -13,6 +13,17 @@
 namespace pbf {
 
 struct Surface;
+namespace raster {
+class SurfaceMaps;
+}
+
+/// Who draws up to the smoothed surface: shaders, or the passes in C++ (raster/). The picture is
+/// drawn by shaders.
+enum class SurfacePasses {
+  automatic,  ///< in C++ where the driver is Mesa's software one, which they outrun
+  glsl,
+  cpp,
+};
 
 /// What drawing the last picture took.
 struct RenderReport {
@@ -28,7 +39,7 @@ struct RenderReport {
 class FluidRenderer {
  public:
   /// Throws InvalidParameter for a size the driver cannot draw, RendererUnavailable without OpenGL.
-  FluidRenderer(int width, int height);
+  FluidRenderer(int width, int height, SurfacePasses passes = SurfacePasses::automatic);
   ~FluidRenderer();
   FluidRenderer(const FluidRenderer&) = delete;
   FluidRenderer& operator=(const FluidRenderer&) = delete;
@@ -49,6 +60,12 @@ class FluidRenderer {
   struct Passes;
   struct Targets;
   Surface draw(const PointsView& positions, const Camera& camera, const RenderParams& params);
+  Surface draw_in_glsl(const PointsView& positions,
+                       const Camera& camera,
+                       const RenderParams& params);
+  Surface draw_in_cpp(const PointsView& positions,
+                      const Camera& camera,
+                      const RenderParams& params);
   /// Runs a pass, and times it if that was asked for.
   template <class F>
   void stage(const char* name, F&& pass);
@@ -58,6 +75,7 @@ class FluidRenderer {
   EglContext context_;
   std::unique_ptr<Passes> passes_;
   std::unique_ptr<Targets> targets_;
+  std::unique_ptr<raster::SurfaceMaps> maps_;  ///< null where shaders draw the surface
   RenderReport report_;
 };
 

@@ -6,10 +6,17 @@
 
 namespace pbf {
 
-/// How a layer is smoothed.
-enum class Smoothing { bilateral, gaussian };
+/// How depth is smoothed.
+enum class Smoothing { bilateral, gaussian, narrow_range };
 template <>
 struct Choices<Smoothing> {
+  static constexpr std::array names{"bilateral", "gaussian", "narrow_range"};
+};
+
+/// How thickness is smoothed.
+enum class ThicknessSmoothing { bilateral, gaussian };
+template <>
+struct Choices<ThicknessSmoothing> {
   static constexpr std::array names{"bilateral", "gaussian"};
 };
 
@@ -29,7 +36,7 @@ struct RenderParams {
   std::optional<Real> smoothing_radius = std::nullopt;
   std::optional<Real> smoothing_range = std::nullopt;
   int smoothing_iterations = 2;
-  Smoothing thickness_smoothing = Smoothing::gaussian;
+  ThicknessSmoothing thickness_smoothing = ThicknessSmoothing::gaussian;
   std::optional<Real> thickness_radius = std::nullopt;
   std::optional<Real> thickness_range = std::nullopt;
   int thickness_iterations = 1;
@@ -79,20 +86,21 @@ struct RenderParams {
               "the cube of "
               "the particle distance, thickness is the length of the path through the fluid."},
         Field{"smoothing", &P::smoothing, "", anything(),
-              "bilateral keeps steps of depth that are higher than smoothing_range, so that a drop "
-              "stays in "
-              "front of what is behind it; gaussian melts them together."},
+              "How depth is smoothed. bilateral keeps steps of depth that are higher than "
+              "smoothing_range, so that a drop stays in front of what is behind it; narrow_range "
+              "also smooths across steep surfaces and rounds off the edge of what is in front; "
+              "gaussian melts what is in front and behind together."},
         Field{"smoothing_radius", &P::smoothing_radius, "m", inside(0, 1e6),
               "Where the depth filter's kernel ends, 2 * radius if not given; its standard "
-              "deviation is half "
-              "of that. Larger is smoother and rounder."},
+              "deviation is half of that. Larger is smoother and rounder."},
         Field{"smoothing_range", &P::smoothing_range, "m", inside(0, 1e6),
-              "Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not "
-              "given."},
+              "Steps of depth higher than this are kept, by all but the gaussian filter; 4 * "
+              "radius if not given."},
         Field{"smoothing_iterations", &P::smoothing_iterations, "", between(0, 16),
               "How often the depth filter runs. More is smoother and slower."},
         Field{"thickness_smoothing", &P::thickness_smoothing, "", anything(),
-              "As smoothing, for the thickness."},
+              "How thickness is smoothed: gaussian, or bilateral, which keeps steps higher than "
+              "thickness_range."},
         Field{"thickness_radius", &P::thickness_radius, "m", inside(0, 1e6),
               "As smoothing_radius, for the thickness; 2 * radius if not given."},
         Field{"thickness_range", &P::thickness_range, "m", inside(0, 1e6),

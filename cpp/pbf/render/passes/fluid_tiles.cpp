@@ -27,20 +27,13 @@ Span tiles_between(float low, float high, int pixels, int tiles) {
 FluidTiles::FluidTiles(int width, int height)
     : width_(width),
       height_(height),
-      columns_((width + kSide - 1) / kSide),
-      rows_((height + kSide - 1) / kSide),
-      buffer_(GL_ARRAY_BUFFER) {
+      buffer_(GL_ARRAY_BUFFER),
+      reached_(width, height) {
   array_.instances(buffer_, 3, 0);
 }
 
-void FluidTiles::mark(int x0, int x1, int y0, int y1) {
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) reached_[static_cast<std::size_t>(y) * columns_ + x] = 1;
-  }
-}
-
 void FluidTiles::find(const PointsView& positions, const Camera& camera, Real radius) {
-  reached_.assign(static_cast<std::size_t>(columns_) * rows_, 0);
+  reached_.clear();
   const Eigen::Matrix4f view = camera.view();
   const float half_height = camera.half_height();
   const float half_width = half_height * static_cast<float>(width_) / static_cast<float>(height_);
@@ -60,18 +53,19 @@ void FluidTiles::find(const PointsView& positions, const Camera& camera, Real ra
       }
       return tiles_between(low / half_size, high / half_size, pixels, tiles);
     };
-    const Span x = span(center.x(), half_width, width_, columns_);
-    const Span y = span(center.y(), half_height, height_, rows_);
-    mark(x.first, x.last, y.first, y.last);
-  }
-  std::vector<float> corners;
-  for (int y = 0; y < rows_; ++y) {
-    for (int x = 0; x < columns_; ++x) {
-      if (reached_[static_cast<std::size_t>(y) * columns_ + x] == 0) continue;
-      for (const int value : {x * kSide, y * kSide, kSide}) {
-        corners.push_back(static_cast<float>(value));
-      }
+    const Span x = span(center.x(), half_width, width_, reached_.columns());
+    const Span y = span(center.y(), half_height, height_, reached_.rows());
+    for (int row = y.first; row <= y.last; ++row) {
+      for (int column = x.first; column <= x.last; ++column) reached_.mark(column, row);
     }
+  }
+  upload(reached_);
+}
+
+void FluidTiles::upload(const raster::Tiles& tiles) {
+  std::vector<float> corners;
+  for (const raster::Tile& tile : tiles.list()) {
+    for (const int value : {tile.x, tile.y, kSide}) corners.push_back(static_cast<float>(value));
   }
   count_ = static_cast<GLsizei>(corners.size() / 3);
   buffer_.upload(corners.data(), static_cast<GLsizeiptr>(corners.size() * sizeof(float)));

@@ -2,8 +2,7 @@
 
 #include "pbf/gl/buffer.hpp"
 #include "pbf/render/camera.hpp"
-
-#include <vector>
+#include "pbf/render/raster/tiles.hpp"
 
 namespace pbf {
 
@@ -12,20 +11,21 @@ namespace pbf {
 /// happen before.
 class FluidTiles {
  public:
-  static constexpr int kSide = 32;  ///< [pixels]
+  static constexpr int kSide = raster::kTileSide;  ///< [pixels]
 
   FluidTiles(int width, int height);
   /// Finds the squares that spheres of a radius [m] can reach.
   void find(const PointsView& positions, const Camera& camera, Real radius);
+  /// Takes over squares that were found.
+  void upload(const raster::Tiles& tiles);
   /// Replaces what is in these squares of the target; for programs with glsl/fluid_tiles.vert.
   void draw() const;
 
  private:
-  void mark(int x0, int x1, int y0, int y1);
-  int width_, height_, columns_, rows_;
+  int width_, height_;
   Buffer buffer_;
   VertexArray array_;
-  std::vector<char> reached_;
+  raster::Tiles reached_;
   GLsizei count_ = 0;
 };
 

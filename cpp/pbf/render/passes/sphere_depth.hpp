@@ -2,6 +2,7 @@
 
 #include "pbf/gl/framebuffer.hpp"
 #include "pbf/gl/program.hpp"
+#include "pbf/render/frame_block.hpp"
 #include "pbf/render/params.hpp"
 #include "pbf/render/passes/sprites.hpp"
 
@@ -23,8 +24,5 @@ class SphereDepth {
   Program program_;
   bool with_thickness_;
 };
-
-/// Affine depth where there is no fluid, as in glsl/frame.glsl.
-inline constexpr float kNothing = -1e30F;
 
 }  // namespace pbf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pbf/core/isa.hpp"
+#include "pbf/neighbors/scan.hpp"
+
+namespace pbf {
+
+/// The inner loops of Crowding, for one instruction set: over the candidates j around a particle at
+/// x, which is one of them. Sums are made in the same order with every instruction set.
+struct CrowdingKernels {
+  /// m of the particle, without itself; writes the u_j.
+  float (*sum)(const Candidates& candidates, const Record& x, float inverse_s2, float* u);
+  /// Sets flags[j] where u_j is so large that j is as crowded as a particle with m = 9.
+  void (*mark)(const Candidates& candidates, const float* u, std::uint8_t* flags);
+  /// Sets flags[j] where u_j > 0 and particles[j].w < 0.
+  void (*mark_unknown)(const Candidates& candidates,
+                       const Record& x,
+                       float inverse_s2,
+                       const Record* particles,
+                       std::uint8_t* flags);
+  /// max_j min(1, 3/2 u_j) particles[j].w, with the particle itself.
+  float (*largest)(const Candidates& candidates,
+                   const Record& x,
+                   float inverse_s2,
+                   const Record* particles);
+};
+
+/// m_i of a particle in a body of fluid.
+inline constexpr float kBodySum = 9;
+
+const CrowdingKernels& crowding_kernels(Isa isa);
+
+}  // namespace pbf

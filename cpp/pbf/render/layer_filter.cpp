@@ -1,0 +1,25 @@
+#include "pbf/render/layer_filter.hpp"
+
+#include <algorithm>
+
+namespace pbf {
+
+LayerFilter depth_filter(const RenderParams& params) {
+  const Real range = params.smoothing_range_in_force();
+  return {.layer = LayerFilter::Layer::depth,
+          .kind = params.smoothing,
+          .radius = params.smoothing_radius_in_force(),
+          .range = range,
+          .behind = std::min(params.radius, range)};
+}
+
+LayerFilter thickness_filter(const RenderParams& params) {
+  return {.layer = LayerFilter::Layer::thickness,
+          .kind = params.thickness_smoothing == ThicknessSmoothing::gaussian ? Smoothing::gaussian
+                                                                             : Smoothing::bilateral,
+          .radius = params.thickness_radius_in_force(),
+          .range = params.thickness_range_in_force(),
+          .behind = 0};
+}
+
+}  // namespace pbf

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "pbf/core/isa.hpp"
+#include "pbf/core/records.hpp"
+#include "pbf/render/raster/tiles.hpp"
+
+#include <cstdint>
+
+namespace pbf::raster {
+
+/// The uniforms of glsl/sprite.vert and glsl/frame.glsl: plain numbers, for loops that are compiled
+/// for several instruction sets.
+struct SplatView {
+  float view[16];                ///< world to eye space, column by column
+  float half_width, half_height; ///< of what is seen (at depth 1 in perspective) [m]
+  float near, far;               ///< [m]
+  float width, height;           ///< [pixels]
+  bool perspective;
+  float radius, drop_radius;     ///< [m]
+  float volume;                  ///< of a particle [m³]
+};
+
+/// Tiles that a sprite covers, the last ones included; none if the first column exceeds the last.
+struct TileBox {
+  std::int16_t first_column, last_column, first_row, last_row;
+};
+
+/// The inner loops of Splats, for one instruction set.
+struct SplatKernels {
+  /// Eye-space centers with their crowding, and the tiles they cover, of the particles
+  /// [first, last). May write kMostLanes more.
+  void (*project)(const Record* particles,
+                  Index first,
+                  Index last,
+                  const SplatView& view,
+                  Record* centers,
+                  TileBox* boxes);
+  /// Draws sprites into a tile of the maps. Behind the last sprite there must be kMostLanes that
+  /// can be read.
+  /// @param depth, thickness  the tile's first pixel
+  void (*draw)(const Record* centers,
+               Index count,
+               const SplatView& view,
+               Tile tile,
+               float* depth,
+               float* thickness,
+               std::ptrdiff_t pitch);
+};
+
+const SplatKernels& splat_kernels(Isa isa);
+
+}  // namespace pbf::raster

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "pbf/core/records.hpp"
+#include "pbf/render/frame_block.hpp"
+#include "pbf/render/raster/map.hpp"
+#include "pbf/render/raster/splat_kernels.hpp"
+
+#include <vector>
+
+namespace pbf::raster {
+
+/// The passes sphere_depth and thickness in C++: sprites are sorted into the tiles that they cover,
+/// in the order of the particles, and a thread draws one tile after the other. So the same bits for
+/// any number of threads.
+class Splats {
+ public:
+  /// Sorts the particles, with their crowding, into tiles.
+  void bin(const Records& particles, const SplatView& view, int threads);
+  /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it
+  /// @param thickness  [m]
+  void draw(const SplatView& view, Map& depth, Map& thickness, int threads) const;
+  /// Those that sprites cover.
+  [[nodiscard]] const Tiles& tiles() const { return tiles_; }
+
+ private:
+  Tiles tiles_{1, 1};
+  Records centers_, binned_;
+  std::vector<TileBox> boxes_;
+  std::vector<std::uint32_t> places_;  // of each tile in each block of particles
+  std::vector<std::uint32_t> starts_;  // in binned_, of each tile and the end
+  Records large_;                      // drawn in every tile
+};
+
+SplatView splat_view(const FrameBlock& frame, const RenderParams& params);
+
+}  // namespace pbf::raster

@@ -1,0 +1,239 @@
+// Compiled once per instruction set (cpp/pbf_render.cmake).
+#include "pbf/core/lanes.hpp"
+#include "pbf/render/raster/splat_kernels.hpp"
+
+namespace pbf::PBF_ISA_NAMESPACE {
+namespace {
+
+using namespace raster;
+
+using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+
+PBF_INLINE Lanes clamped(Lanes a, float low, float high) { return min(max(a, low), high); }
+
+constexpr float kNothing = -1e30F;
+
+/// What is seen of a sphere [pixels].
+struct Outline {
+  Lanes left, right, bottom, top;
+  Mask visible;
+};
+
+struct Interval {
+  Lanes low, high;
+};
+
+/// Least and greatest slope x/depth of the part of a circle (center x, depth z) that lies beyond
+/// the near plane, seen from the origin: tangents, or where the circle meets the plane [MMG13].
+PBF_INLINE Interval slopes(Lanes x, Lanes z, Lanes radius, Lanes near) {
+  const Lanes cut = sqrt(max(radius * radius - (near - z) * (near - z), 0.0F));
+  Interval result{(x - cut) / near, (x + cut) / near};
+  const Lanes length2 = x * x + z * z;
+  const Lanes t = sqrt(max(length2 - radius * radius, 0.0F));
+  const Mask outside = t > Lanes(0.0F);
+  const Lanes low_along = z * t + x * radius;
+  const Lanes high_along = z * t - x * radius;
+  const Lanes in_front = near * length2;
+  const auto beyond = [&](Lanes along) PBF_LAMBDA_INLINE { return in_front <= along * t; };
+  result.low =
+      select(outside & beyond(low_along), (x * t - z * radius) / low_along, result.low);
+  result.high =
+      select(outside & beyond(high_along), (x * t + z * radius) / high_along, result.high);
+  return result;
+}
+
+PBF_INLINE Lanes radius_of(const SplatView& view, Lanes crowding) {
+  return view.drop_radius * (1.0F - crowding) + view.radius * crowding;
+}
+
+PBF_INLINE Outline outline(const SplatView& view, const Vec3Lanes& center, Lanes radius) {
+  Interval x{center.x - radius, center.x + radius};
+  Interval y{center.y - radius, center.y + radius};
+  const Lanes z = -center.z;
+  if (view.perspective) {
+    x = slopes(center.x, z, radius, view.near);
+    y = slopes(center.y, z, radius, view.near);
+  }
+  // A hundredth of a pixel of margin for rounding; beyond the picture there is nothing to draw.
+  const auto pixel = [](Lanes slope, float half_size, float pixels, float margin)
+                         PBF_LAMBDA_INLINE {
+                           const Lanes at = (slope / half_size + 1.0F) * (0.5F * pixels);
+                           return clamped(at + margin, 0.0F, pixels);
+                         };
+  return {pixel(x.low, view.half_width, view.width, -0.01F),
+          pixel(x.high, view.half_width, view.width, 0.01F),
+          pixel(y.low, view.half_height, view.height, -0.01F),
+          pixel(y.high, view.half_height, view.height, 0.01F),
+          (z + radius > view.near) & (z - radius < view.far)};
+}
+
+/// The first pixel whose center is not below an image coordinate.
+PBF_INLINE Ints first_pixel(Lanes at) {
+  // Coordinates are not negative: truncating rounds down.
+  return __builtin_convertvector((at + 0.5F).v, Ints);
+}
+
+void project(const Record* particles,
+             Index first,
+             Index last,
+             const SplatView& view,
+             Record* centers,
+             TileBox* boxes) {
+  const float* m = view.view;
+  for (Index i = first; i < last; i += kLanes) {
+    const RecordLanes p = load_records(particles + i);
+    const auto row = [&](int k) PBF_LAMBDA_INLINE {
+      return m[k] * p.xyz.x + m[4 + k] * p.xyz.y + m[8 + k] * p.xyz.z + m[12 + k];
+    };
+    const Vec3Lanes center{row(0), row(1), row(2)};
+    store_records(centers + i, center, p.w);
+    const Outline at = outline(view, center, radius_of(view, p.w));
+    const Ints left = first_pixel(at.left), right = first_pixel(at.right);
+    const Ints bottom = first_pixel(at.bottom), top = first_pixel(at.top);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const bool covers = at.visible.v[lane] != 0 && left[lane] < right[lane] &&
+                          bottom[lane] < top[lane];
+      const auto tile = [](int pixel) { return static_cast<std::int16_t>(pixel / kTileSide); };
+      boxes[i + lane] = covers ? TileBox{tile(left[lane]), tile(right[lane] - 1),
+                                         tile(bottom[lane]), tile(top[lane] - 1)}
+                               : TileBox{1, 0, 1, 0};
+    }
+  }
+}
+
+/// Vectors may begin at any pixel of the tile.
+constexpr int kWidth = kTileSide + kLanes;
+
+struct Workspace {
+  alignas(64) float depth[kTileSide * kWidth];
+  alignas(64) float thickness[kTileSide * kWidth];
+  alignas(64) float inverse2[kTileSide * kWidth];  // 1 / |direction|²
+  alignas(64) float length[kTileSide * kWidth];    // |direction|
+  alignas(64) float x[kWidth];                     // of the pixels' rays
+  float y[kTileSide];
+};
+
+struct Sprite {
+  float x, y, z, radius, share;
+  std::uint32_t level;
+  int left, right, bottom, top;
+};
+
+template <bool kPerspective>
+void splat(const Sprite& s, const SplatView& view, Workspace& to) {
+  const Lanes radius2 = s.radius * s.radius;
+  const Ints level = static_cast<std::int32_t>(s.level) - Ints{};
+  for (int y = s.bottom; y < s.top; ++y) {
+    const Lanes py = to.y[y];
+    for (int x = s.left; x < s.right; x += kLanes) {
+      const int at = y * kWidth + x;
+      const Lanes px = load_lanes(to.x + x);
+      Lanes middle, miss2, inverse2;
+      if (kPerspective) {
+        inverse2 = load_lanes(to.inverse2 + at);
+        middle = (px * s.x + py * s.y - s.z) * inverse2;
+        const Vec3Lanes miss{s.x - middle * px, s.y - middle * py, s.z + middle};
+        miss2 = dot(miss, miss);
+      } else {
+        inverse2 = 1.0F;
+        middle = -s.z;
+        const Lanes mx = s.x - px, my = s.y - py;
+        miss2 = mx * mx + my * my;
+      }
+      const Lanes half2 = radius2 - miss2;
+      const Mask hit = half2 > Lanes(0.0F);
+      if (!any(hit)) continue;
+      const Lanes half_depth = sqrt(max(half2, 0.0F) * inverse2);
+      const Lanes front = middle - half_depth;
+      const Lanes back = middle + half_depth;
+      const Lanes inside = min(back, view.far) - max(front, view.near);
+      const Lanes chord = kPerspective ? inside * load_lanes(to.length + at) : inside;
+      store(to.thickness + at,
+            load_lanes(to.thickness + at) + max(select(hit, chord, 0.0F), 0.0F) * s.share);
+      const Mask seen = hit & (chord > Lanes(0.0F)) & (Lanes(view.near) <= front);
+      const Lanes affine = kPerspective ? 1.0F / front : -front;
+      const Ints bits = (reinterpret_cast<Ints>(affine.v) & ~3) | level;
+      const Lanes value = select(seen, Lanes(reinterpret_cast<Lanes::Vector>(bits)), kNothing);
+      store(to.depth + at, max(value, load_lanes(to.depth + at)));
+    }
+  }
+}
+
+template <bool kPerspective>
+void draw_tile(const Record* centers,
+               Index count,
+               const SplatView& view,
+               Tile tile,
+               float* depth,
+               float* thickness,
+               std::ptrdiff_t pitch) {
+  Workspace work;
+  for (int x = 0; x < kWidth; ++x) {
+    const float pixel = static_cast<float>(tile.x + x) + 0.5F;
+    work.x[x] = (2.0F * pixel * (1.0F / view.width) - 1.0F) * view.half_width;
+  }
+  for (int y = 0; y < kTileSide; ++y) {
+    const float pixel = static_cast<float>(tile.y + y) + 0.5F;
+    work.y[y] = (2.0F * pixel * (1.0F / view.height) - 1.0F) * view.half_height;
+  }
+  for (int y = 0; y < kTileSide; ++y) {
+    for (int x = 0; x < kWidth; x += kLanes) {
+      const int at = y * kWidth + x;
+      store(work.depth + at, kNothing);
+      store(work.thickness + at, 0.0F);
+      const Lanes px = load_lanes(work.x + x), py = work.y[y];
+      const Lanes length2 = px * px + py * py + 1.0F;
+      store(work.inverse2 + at, 1.0F / length2);
+      store(work.length + at, sqrt(length2));
+    }
+  }
+  for (Index i = 0; i < count; i += kLanes) {
+    const RecordLanes c = load_records(centers + i);
+    const Lanes radius = radius_of(view, c.w);
+    const Outline at = outline(view, c.xyz, radius);
+    const auto inside = [](Ints pixel, int low) PBF_LAMBDA_INLINE {
+      pixel -= low;
+      const Ints zero{};
+      const Ints most = kTileSide + zero;
+      pixel = pixel > zero ? pixel : zero;
+      return pixel < most ? pixel : most;
+    };
+    const Ints left = inside(first_pixel(at.left), tile.x);
+    const Ints right = inside(first_pixel(at.right), tile.x);
+    const Ints bottom = inside(first_pixel(at.bottom), tile.y);
+    const Ints top = inside(first_pixel(at.top), tile.y);
+    const Lanes share = view.volume / (4.18879020F * radius * radius * radius);
+    const Ints level = __builtin_convertvector((3.5F - 3.0F * c.w).v, Ints);
+    const int lanes = count - i < kLanes ? static_cast<int>(count - i) : kLanes;
+    for (int lane = 0; lane < lanes; ++lane) {
+      splat<kPerspective>({c.xyz.x.v[lane], c.xyz.y.v[lane], c.xyz.z.v[lane], radius.v[lane],
+                           share.v[lane], static_cast<std::uint32_t>(level[lane]), left[lane],
+                           right[lane], bottom[lane], top[lane]},
+                          view, work);
+    }
+  }
+  for (int y = 0; y < kTileSide; ++y) {
+    std::memcpy(depth + y * pitch, work.depth + y * kWidth, kTileSide * sizeof(float));
+    std::memcpy(thickness + y * pitch, work.thickness + y * kWidth, kTileSide * sizeof(float));
+  }
+}
+
+void draw(const Record* centers,
+          Index count,
+          const SplatView& view,
+          Tile tile,
+          float* depth,
+          float* thickness,
+          std::ptrdiff_t pitch) {
+  const auto draw = view.perspective ? draw_tile<true> : draw_tile<false>;
+  draw(centers, count, view, tile, depth, thickness, pitch);
+}
+
+}  // namespace
+
+const raster::SplatKernels& splat_kernels() {
+  static constexpr SplatKernels table{project, draw};
+  return table;
+}
+
+}  // namespace pbf::PBF_ISA_NAMESPACE

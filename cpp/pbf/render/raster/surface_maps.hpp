@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pbf/render/camera.hpp"
+#include "pbf/render/crowding.hpp"
+#include "pbf/render/params.hpp"
+#include "pbf/render/raster/map.hpp"
+#include "pbf/render/raster/splats.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pbf::raster {
+
+/// The passes from particles to a smooth surface in C++, without OpenGL: what those in glsl/ do,
+/// for drivers that run shaders on the processor and for machines that have no driver.
+class SurfaceMaps {
+ public:
+  SurfaceMaps(int width, int height);
+  /// @param positions  finite [m]
+  /// @param threads    0: all there are; the maps have the same bits with any
+  void find(const PointsView& positions,
+            const Camera& camera,
+            const RenderParams& params,
+            int threads = 0);
+
+  /// Where the maps below can hold fluid.
+  [[nodiscard]] const Tiles& tiles() const { return splats_.tiles(); }
+  [[nodiscard]] const Map& depth() const { return depth_; }          ///< affine, with crowding
+  [[nodiscard]] const Map& thickness() const { return thickness_; }  ///< [m]
+  [[nodiscard]] const Map& depth_smooth() const { return *smooth_depth_; }          ///< affine
+  [[nodiscard]] const Map& thickness_smooth() const { return *smooth_thickness_; }  ///< [m]
+
+  /// Each pass in order and the time it took [ms].
+  [[nodiscard]] const auto& milliseconds() const { return milliseconds_; }
+
+ private:
+  template <class F>
+  void stage(const char* name, F&& pass);
+
+  Crowding crowding_;
+  Splats splats_;
+  Map depth_, thickness_;
+  Map depth_between_, thickness_between_;
+  Map depth_out_, thickness_out_;
+  const Map* smooth_depth_ = &depth_;
+  const Map* smooth_thickness_ = &thickness_;
+  std::vector<std::pair<std::string, double>> milliseconds_;
+};
+
+}  // namespace pbf::raster

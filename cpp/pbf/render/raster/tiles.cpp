@@ -1,0 +1,28 @@
+#include "pbf/render/raster/tiles.hpp"
+
+#include <algorithm>
+
+namespace pbf::raster {
+
+Tiles::Tiles(int width, int height)
+    : columns_((width + kTileSide - 1) / kTileSide),
+      rows_((height + kTileSide - 1) / kTileSide),
+      marks_(static_cast<std::size_t>(columns_) * rows_, 0) {}
+
+void Tiles::clear() { std::fill(marks_.begin(), marks_.end(), std::uint8_t{0}); }
+
+void Tiles::mark(int column, int row) {
+  marks_[static_cast<std::size_t>(row) * columns_ + column] = 1;
+}
+
+std::vector<Tile> Tiles::list() const {
+  std::vector<Tile> result;
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      if (has(column, row)) result.push_back({column * kTileSide, row * kTileSide});
+    }
+  }
+  return result;
+}
+
+}  // namespace pbf::raster
