@@ -13,6 +13,7 @@ add_library(pbf_render STATIC
   pbf/render/camera.cpp
   pbf/render/params.cpp
   pbf/render/crowding.cpp
+  pbf/render/sun_shadow.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp

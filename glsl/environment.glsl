@@ -12,6 +12,11 @@ uniform float u_tile;           // side of a floor tile [m]
 uniform int u_has_tank;
 uniform vec3 u_tank_lower;      // [m]
 uniform vec3 u_tank_upper;      // [m]
+uniform sampler2D u_shadow;     // share of the sun's light that the fluid lets through
+uniform vec3 u_shadow_center;   // [m]
+uniform vec3 u_shadow_x;        // axes of the shadow's picture [1/m]
+uniform vec3 u_shadow_y;
+uniform float u_shadow_strength;  // share of the sun in the floor's light
 uniform vec3 u_eye;             // world space [m]
 uniform vec3 u_floor_x;         // unit vectors along the floor
 uniform vec3 u_floor_y;
@@ -60,12 +65,19 @@ float contact_shadow(vec2 p) {
   return 1.0 - 0.38 * fade * fade;
 }
 
+// Light of sun and sky that reaches a point of the floor through the fluid.
+vec3 sunlight(vec3 point) {
+  vec3 p = point - u_shadow_center;
+  vec2 at = vec2(dot(u_shadow_x, p), dot(u_shadow_y, p)) + 0.5;
+  return 1.0 - u_shadow_strength * (1.0 - textureLod(u_shadow, at, 0.0).rgb);
+}
+
 // @param reach  half of a pixel's extent on the floor along u_floor_x and u_floor_y [m]
 vec3 floor_color(vec3 point, vec2 reach) {
   vec2 p = vec2(dot(point, u_floor_x), dot(point, u_floor_y));
   vec2 f = max(reach / u_tile, 1e-3);
   float lines = max(line_cover(p.x / u_tile, 0.010, f.x), line_cover(p.y / u_tile, 0.010, f.y));
-  vec3 color = FLOOR * (1.0 - 0.35 * lines);
+  vec3 color = FLOOR * (1.0 - 0.35 * lines) * sunlight(point);
   return u_has_tank == 1 ? color * contact_shadow(p) : color;
 }
 

@@ -82,6 +82,7 @@ inline constexpr GLenum GL_VENDOR = 0x1F00;
 inline constexpr GLenum GL_RENDERER = 0x1F01;
 inline constexpr GLenum GL_VERSION = 0x1F02;
 inline constexpr GLint GL_NEAREST = 0x2600;
+inline constexpr GLint GL_LINEAR = 0x2601;
 inline constexpr GLenum GL_TEXTURE_MAG_FILTER = 0x2800;
 inline constexpr GLenum GL_TEXTURE_MIN_FILTER = 0x2801;
 inline constexpr GLenum GL_TEXTURE_WRAP_S = 0x2802;

@@ -7,11 +7,18 @@ namespace pbf {
 /// Channels and precision of a texture.
 enum class Format { r32f, rgba32f, rgba8 };
 
+/// What lies between the texels: the nearest one, or a linear mixture.
+enum class Sampling { nearest, linear };
+
 /// A two-dimensional texture without mipmaps, clamped to its edge.
 class Texture {
  public:
   /// @param data  rows from the bottom up in the format's own type, or null for undefined content
-  Texture(int width, int height, Format format, const void* data = nullptr);
+  Texture(int width,
+          int height,
+          Format format,
+          const void* data = nullptr,
+          Sampling sampling = Sampling::nearest);
   void bind(int unit) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }
   [[nodiscard]] int width() const { return width_; }

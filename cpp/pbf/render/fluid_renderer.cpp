@@ -181,8 +181,11 @@ Image FluidRenderer::render(const PointsView& positions,
   require_finite(positions);
   const auto current = context_.make_current();
   const Surface surface = draw(positions, camera, params);
-  stage("composite",
-        [&] { passes_->composite(surface, camera, params, targets_->color.framebuffer); });
+  SunShadow shadow;
+  stage("shadow", [&] { shadow = sun_shadow(positions, params); });
+  stage("composite", [&] {
+    passes_->composite(surface, {shadow}, camera, params, targets_->color.framebuffer);
+  });
   Image image;
   stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
   require_no_gl_error();

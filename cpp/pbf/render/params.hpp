@@ -39,6 +39,7 @@ struct RenderParams {
   Background background = Background::sky;
   Vec3 background_color{1.0F, 1.0F, 1.0F};
   Vec3 sun_direction{-0.45F, 0.8F, 0.35F};
+  Real shadow = 0.6F;
   Vec3 up{0.0F, 1.0F, 0.0F};
   bool floor = true;
   std::optional<Real> floor_height = std::nullopt;
@@ -114,6 +115,10 @@ struct RenderParams {
               "Color of the plain background."},
         Field{"sun_direction", &P::sun_direction, "", between(-1e6, 1e6),
               "Towards the sun. Any length but zero."},
+        Field{"shadow", &P::shadow, "", between(0, 1),
+              "How much of the floor's light comes from the sun, and is absorbed in the fluid's "
+              "shadow. 0: no "
+              "shadow. 1: black where no light comes through."},
         Field{
             "up", &P::up, "", between(-1e6, 1e6),
             "Up in the scene: the floor lies across it, the zenith is there. Any length but zero."},

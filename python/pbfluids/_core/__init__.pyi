@@ -613,6 +613,7 @@ class RenderParams:
         background: str = ...,
         background_color: collections.abc.Sequence[float] = ...,
         sun_direction: collections.abc.Sequence[float] = ...,
+        shadow: float = ...,
         up: collections.abc.Sequence[float] = ...,
         floor: bool = ...,
         floor_height: float | None = ...,
@@ -727,6 +728,13 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
+    @property
+    def shadow(self) -> float:
+        """
+        How much of the floor's light comes from the sun, and is absorbed in the fluid's shadow. 0: no shadow. 1: black where no light comes through.
+        """
+    @shadow.setter
+    def shadow(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def smoothing(self) -> str:
         """

@@ -25,7 +25,13 @@ constexpr Real kEdgeHalfWidth = 1.3F;
 /// Tiles about a dozen sprites wide: in scale with the scene, whatever its size.
 constexpr Real kTileInRadii = 12.5F;
 
-void set_environment(const Program& program, const Camera& camera, const RenderParams& params) {
+/// Texture units.
+enum Unit { kDepth, kThickness, kNormal, kShadow };
+
+void set_environment(const Program& program,
+                     const Surroundings& surroundings,
+                     const Camera& camera,
+                     const RenderParams& params) {
   const Vec3 up = params.up.normalized();
   const bool along_x = std::abs(up.x()) > 0.9F;
   const Vec3 floor_x = (along_x ? Vec3::UnitY() : Vec3::UnitX()).cross(up).cross(-up).normalized();
@@ -42,6 +48,11 @@ void set_environment(const Program& program, const Camera& camera, const RenderP
   program.set("u_floor_x", floor_x);
   program.set("u_floor_y", Vec3(up.cross(floor_x)));
   program.set("u_eye", camera.eye);
+  program.set("u_shadow", kShadow);
+  program.set("u_shadow_center", surroundings.shadow.center);
+  program.set("u_shadow_x", surroundings.shadow.x);
+  program.set("u_shadow_y", surroundings.shadow.y);
+  program.set("u_shadow_strength", params.shadow);
   program.set("u_exposure", params.exposure);
 }
 
@@ -63,22 +74,27 @@ Composite::Composite(const GlslSource& source)
                    .defines = {}}) {}
 
 void Composite::operator()(const Surface& surface,
+                           const Surroundings& surroundings,
                            const Camera& camera,
                            const RenderParams& params,
                            const Framebuffer& out) const {
-  surface.depth.bind(0);
-  surface.thickness.bind(1);
-  surface.normal.bind(2);
+  const SunShadow& sun = surroundings.shadow;
+  const Texture shadow(sun.width, sun.height, Format::rgba8, sun.transmittance.data(),
+                       Sampling::linear);
+  shadow.bind(kShadow);
+  surface.depth.bind(kDepth);
+  surface.thickness.bind(kThickness);
+  surface.normal.bind(kNormal);
   out.bind();
   background_.use();
-  set_environment(background_, camera, params);
+  set_environment(background_, surroundings, camera, params);
   no_vertices_.bind();
   draw_fullscreen();
   fluid_.use();
-  set_environment(fluid_, camera, params);
-  fluid_.set("u_depth", 0);
-  fluid_.set("u_thickness", 1);
-  fluid_.set("u_normal", 2);
+  set_environment(fluid_, surroundings, camera, params);
+  fluid_.set("u_depth", kDepth);
+  fluid_.set("u_thickness", kThickness);
+  fluid_.set("u_normal", kNormal);
   fluid_.set("u_absorption", params.absorption);
   fluid_.set("u_scatter", params.scatter);
   fluid_.set("u_refractive_index", params.refractive_index);
@@ -88,8 +104,8 @@ void Composite::operator()(const Surface& surface,
   surface.tiles.draw();
   if (!params.tank_lower) return;
   tank_edges_.use();
-  tank_edges_.set("u_depth", 0);
-  tank_edges_.set("u_thickness", 1);
+  tank_edges_.set("u_depth", kDepth);
+  tank_edges_.set("u_thickness", kThickness);
   tank_edges_.set("u_absorption", params.absorption);
   tank_edges_.set("u_tank_lower", *params.tank_lower);
   tank_edges_.set("u_tank_upper", *params.tank_upper);
