@@ -25,6 +25,7 @@ add_library(pbf_render STATIC
   pbf/render/passes/thickness_smooth.cpp
   pbf/render/passes/normal.cpp
   pbf/render/passes/composite.cpp
+  pbf/render/passes/resolve.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core
@@ -45,5 +46,6 @@ pbf_embed_glsl(pbf_render
   display.glsl
   background.frag
   composite.frag
+  resolve.frag
   tank_edges.vert
   tank_edges.frag)

@@ -13,6 +13,8 @@ Layout layout_of(Format format) {
       return {GL_R32F, GL_RED, GL_FLOAT};
     case Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::srgb8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
     case Format::rgba8:
       break;
   }

@@ -5,7 +5,9 @@
 namespace pbf {
 
 /// Channels and precision of a texture.
-enum class Format { r32f, rgba32f, rgba8 };
+/// srgb8: red, green and blue are linear wherever a shader reads or
+/// writes them, and sRGB-encoded in memory, which is where 8 bits suffice; alpha is as it is.
+enum class Format { r32f, rgba32f, rgba8, srgb8 };
 
 /// What lies between the texels: the nearest one, or a linear mixture.
 enum class Sampling { nearest, linear };

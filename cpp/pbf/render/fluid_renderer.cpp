@@ -6,6 +6,7 @@
 #include "pbf/render/passes/composite.hpp"
 #include "pbf/render/passes/depth_smooth.hpp"
 #include "pbf/render/passes/normal.hpp"
+#include "pbf/render/passes/resolve.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
 #include "pbf/render/passes/thickness.hpp"
 #include "pbf/render/passes/thickness_smooth.hpp"
@@ -24,13 +25,15 @@ int checked_side(int side, const char* name) {
   return side;
 }
 
-void require_drawable(int width, int height) {
+void require_drawable(int width, int height, int factor) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  limit /= factor;
   if (width > limit || height > limit) {
     throw InvalidParameter((width > limit ? "width = " + std::to_string(width)
                                           : "height = " + std::to_string(height)) +
-                           " pixels: this driver draws at most " + std::to_string(limit));
+                           " pixels: this driver draws at most " + std::to_string(limit) +
+                           (factor > 1 ? " with supersampling = " + std::to_string(factor) : ""));
   }
 }
 
@@ -67,6 +70,7 @@ struct FluidRenderer::Passes {
   ThicknessSmooth thickness_smooth{glsl_source};
   Normal normal{glsl_source};
   Composite composite{glsl_source};
+  Resolve resolve{glsl_source};
 };
 
 /// A texture and the framebuffer that draws into it.
@@ -86,27 +90,35 @@ struct FluidRenderer::Targets {
         depth_smooth(w, h, Format::r32f),
         thickness_smooth(w, h, Format::r32f),
         normal(w, h, Format::rgba32f),
-        color(w, h, Format::rgba8),
-        tiles(w, h) {}
+        color(w, h, Format::srgb8),
+        tiles(w, h),
+        width(w),
+        height(h) {}
   Target depth, thickness;          ///< affine depth; [m]
   Framebuffer depth_and_thickness;  ///< both of these at once
   Target between;                   ///< a filter's first half
   Target depth_smooth;              ///< affine depth
   Target thickness_smooth;          ///< [m]
   Target normal;                    ///< eye space
-  Target color;                     ///< sRGB
+  Target color;                     ///< multiplied by alpha
   FluidTiles tiles;                 ///< where any of these can hold fluid
+  int width, height;
 };
 
 FluidRenderer::FluidRenderer(int width, int height)
     : width_(checked_side(width, "width")), height_(checked_side(height, "height")) {
   const auto current = context_.make_current();
-  require_drawable(width, height);
+  require_drawable(width, height, 1);
   auto passes = std::make_unique<Passes>(context_.has_version(4, 0));
-  auto targets = std::make_unique<Targets>(width, height);
+  prepare_targets(1);
   require_no_gl_error();
   passes_ = std::move(passes);
-  targets_ = std::move(targets);
+}
+
+void FluidRenderer::prepare_targets(int factor) {
+  if (targets_ != nullptr && targets_->width == factor * width_) return;
+  require_drawable(width_, height_, factor);
+  targets_ = std::make_unique<Targets>(factor * width_, factor * height_);
 }
 
 FluidRenderer::~FluidRenderer() {
@@ -141,7 +153,7 @@ Surface FluidRenderer::draw(const PointsView& positions,
     pass.crowding.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0);
   });
   stage("upload", [&] {
-    const FrameBlock frame = frame_block(camera, width_, height_);
+    const FrameBlock frame = frame_block(camera, to.width, to.height);
     pass.frame.upload(&frame, sizeof frame);
     pass.frame.bind_base(0);
     pass.sprites.upload(pass.crowding.particles());
@@ -180,6 +192,8 @@ Image FluidRenderer::render(const PointsView& positions,
   validate(params);
   require_finite(positions);
   const auto current = context_.make_current();
+  const int factor = params.supersampling;
+  prepare_targets(factor);
   const Surface surface = draw(positions, camera, params);
   SunShadow shadow;
   stage("shadow", [&] { shadow = sun_shadow(positions, params); });
@@ -187,7 +201,14 @@ Image FluidRenderer::render(const PointsView& positions,
     passes_->composite(surface, {shadow}, camera, params, targets_->color.framebuffer);
   });
   Image image;
-  stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
+  if (factor > 1 || params.background == Background::transparent) {
+    const Target picture(width_, height_, Format::srgb8);
+    stage("resolve",
+          [&] { passes_->resolve(targets_->color.texture, factor, picture.framebuffer); });
+    stage("read_back", [&] { image = read_rgba8(picture.texture); });
+  } else {
+    stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
+  }
   require_no_gl_error();
   return image;
 }
@@ -199,6 +220,7 @@ Layers FluidRenderer::layers(const PointsView& positions,
   validate(params);
   require_finite(positions);
   const auto current = context_.make_current();
+  prepare_targets(1);
   const Surface surface = draw(positions, camera, params);
   Layers layers;
   stage("read_back", [&] {

@@ -48,6 +48,8 @@ class FluidRenderer {
  private:
   struct Passes;
   struct Targets;
+  /// Makes targets of `factor` times the picture's size unless there are.
+  void prepare_targets(int factor);
   Surface draw(const PointsView& positions, const Camera& camera, const RenderParams& params);
   /// Runs a pass, and times it if that was asked for.
   template <class F>

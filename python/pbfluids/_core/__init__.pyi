@@ -611,6 +611,7 @@ class RenderParams:
         scatter: collections.abc.Sequence[float] = ...,
         refractive_index: float = ...,
         background: str = ...,
+        reflection: str | None = ...,
         background_color: collections.abc.Sequence[float] = ...,
         sun_direction: collections.abc.Sequence[float] = ...,
         shadow: float = ...,
@@ -620,6 +621,8 @@ class RenderParams:
         tank_lower: collections.abc.Sequence[float] | None = ...,
         tank_upper: collections.abc.Sequence[float] | None = ...,
         exposure: float = ...,
+        tone_mapping: str = ...,
+        supersampling: int = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -647,14 +650,14 @@ class RenderParams:
     @property
     def background(self) -> str:
         """
-        sky: a bright sky with a sun. plain: background_color everywhere.
+        sky: a bright sky with a sun. plain: background_color everywhere. transparent: nothing; the picture's alpha says how much of another background comes through floor and fluid.
         """
     @background.setter
     def background(self, arg1: str) -> None: ...
     @property
     def background_color(self) -> tuple[float, float, float]:
         """
-        Color of the plain background.
+        Color of the plain background. A transparent picture is exact over it; over others fluid that absorbs colors unequally loses a little of its tint.
         """
     @background_color.setter
     def background_color(
@@ -707,6 +710,13 @@ class RenderParams:
         """
     @radius.setter
     def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def reflection(self) -> str | None:
+        """
+        What the surface mirrors beside the floor: sky, with studio lights, or plain, background_color everywhere. If not given, plain before a plain background, else sky.
+        """
+    @reflection.setter
+    def reflection(self, arg1: str | None) -> None: ...
     @property
     def refractive_index(self) -> float:
         """
@@ -780,6 +790,13 @@ class RenderParams:
         ],
     ) -> None: ...
     @property
+    def supersampling(self) -> int:
+        """
+        The picture is drawn this many times wider and higher, and averaged in linear light: smoother edges, and as many times squared slower. Layers are not.
+        """
+    @supersampling.setter
+    def supersampling(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
     def tank_lower(self) -> tuple[float, float, float] | None:
         """
         A corner of the tank whose edges are drawn; none if not given.
@@ -839,6 +856,13 @@ class RenderParams:
         """
     @thickness_smoothing.setter
     def thickness_smoothing(self, arg1: str) -> None: ...
+    @property
+    def tone_mapping(self) -> str:
+        """
+        How bright light is brought into the picture. soft: values below 0.8 stay as they are. none: values above 1 are cut off. aces: the contrast of film, darker and more colorful.
+        """
+    @tone_mapping.setter
+    def tone_mapping(self, arg1: str) -> None: ...
     @property
     def up(self) -> tuple[float, float, float]:
         """

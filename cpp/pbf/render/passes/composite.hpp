@@ -28,16 +28,16 @@ struct Surroundings {
 class Composite {
  public:
   explicit Composite(const GlslSource& source);
-  /// @param out  rgba8, sRGB-encoded
+  /// @param out  srgb8, multiplied by alpha
   void operator()(const Surface& surface,
                   const Surroundings& surroundings,
                   const Camera& camera,
                   const RenderParams& params,
-                  const Framebuffer& out) const;
+                  const Framebuffer& out);
 
  private:
-  Program background_;
-  Program fluid_;
+  ProgramVariants background_;
+  ProgramVariants fluid_;
   Program tank_edges_;
   VertexArray no_vertices_;
 };

@@ -1,7 +1,5 @@
 #include "pbf/render/passes/fluid_tiles.hpp"
 
-#include "pbf/gl/draw.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -77,8 +75,8 @@ void FluidTiles::find(const PointsView& positions, const Camera& camera, Real ra
   buffer_.upload(corners.data(), static_cast<GLsizeiptr>(corners.size() * sizeof(float)));
 }
 
-void FluidTiles::draw() const {
-  set_draw_state(Blend::replace);
+void FluidTiles::draw(Blend blend) const {
+  set_draw_state(blend);
   array_.bind();
   if (count_ > 0) glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pbf/gl/buffer.hpp"
+#include "pbf/gl/draw.hpp"
 #include "pbf/render/camera.hpp"
 
 #include <vector>
@@ -17,8 +18,8 @@ class FluidTiles {
   FluidTiles(int width, int height);
   /// Finds the squares that spheres of a radius [m] can reach.
   void find(const PointsView& positions, const Camera& camera, Real radius);
-  /// Replaces what is in these squares of the target; for programs with glsl/fluid_tiles.vert.
-  void draw() const;
+  /// Draws these squares of the target; for programs with glsl/fluid_tiles.vert.
+  void draw(Blend blend = Blend::replace) const;
 
  private:
   void mark(int x0, int x1, int y0, int y1);
