@@ -15,6 +15,7 @@ add_library(pbf_render STATIC
   pbf/render/crowding.cpp
   pbf/render/layer_filter.cpp
   pbf/render/crowding_kernels.cpp
+  pbf/render/sun_shadow.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -30,6 +31,7 @@ add_library(pbf_render STATIC
   pbf/render/raster/smooth.cpp
   pbf/render/raster/splat_kernels.cpp
   pbf/render/raster/splats.cpp
+  pbf/render/passes/resolve.cpp
   pbf/render/raster/surface_maps.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
@@ -57,5 +59,6 @@ pbf_embed_glsl(pbf_render
   display.glsl
   background.frag
   composite.frag
+  resolve.frag
   tank_edges.vert
   tank_edges.frag)

@@ -1,17 +1,23 @@
 // environment.glsl: what stands behind and around the fluid, as a function of a ray: a sky with a
-// sun, and a floor. World space, meters, linear colors. An analytic scene has an answer for every
-// refracted and reflected ray, so nothing in front of the fluid can bleed in and there are no
-// halos.
+// sun, and a floor. World space, meters, linear colors multiplied by alpha. An analytic scene has
+// an answer for every refracted and reflected ray, so nothing in front of the fluid can bleed in
+// and there are no halos.
+//
+// BACKDROP and MIRRORED name the function of a direction that is seen behind the fluid, and in it.
 uniform vec3 u_up;              // unit vector
 uniform vec3 u_sun;             // unit vector towards the sun
-uniform int u_plain;            // 1: one color in all directions
-uniform vec3 u_plain_color;
+uniform vec3 u_background_color;
 uniform int u_has_floor;
 uniform float u_floor_height;   // along u_up [m]
 uniform float u_tile;           // side of a floor tile [m]
 uniform int u_has_tank;
 uniform vec3 u_tank_lower;      // [m]
 uniform vec3 u_tank_upper;      // [m]
+uniform sampler2D u_shadow;     // share of the sun's light that the fluid lets through
+uniform vec3 u_shadow_center;   // [m]
+uniform vec3 u_shadow_x;        // axes of the shadow's picture [1/m]
+uniform vec3 u_shadow_y;
+uniform float u_shadow_strength;  // share of the sun in the floor's light
 uniform vec3 u_eye;             // world space [m]
 uniform vec3 u_floor_x;         // unit vectors along the floor
 uniform vec3 u_floor_y;
@@ -21,24 +27,25 @@ const vec3 ZENITH = vec3(0.08, 0.20, 0.42);
 const vec3 FLOOR = vec3(0.50, 0.50, 0.50);
 const vec3 SUN = vec3(1.0, 0.93, 0.80);
 
-vec3 sky(vec3 direction) {
-  if (u_plain == 1) return u_plain_color;
+vec4 nothing(vec3 direction) { return vec4(0.0); }
+vec4 plain(vec3 direction) { return vec4(u_background_color, 1.0); }
+
+vec4 sky(vec3 direction) {
   float elevation = dot(direction, u_up);
   vec3 color = mix(HORIZON, ZENITH, 1.0 - exp(-2.2 * max(elevation, 0.0)));
   float glow = max(dot(direction, u_sun), 0.0);
   float glow8 = glow * glow * glow * glow * glow * glow * glow * glow;
-  return color + SUN * (0.25 * glow8);
+  return vec4(color + SUN * (0.25 * glow8), 1.0);
 }
 
 // Lights that only mirrors show: the sun's disc, softened, and a bright band of sky all around,
 // which draws waves as a studio's soft boxes draw glass.
-vec3 lights(vec3 direction) {
-  if (u_plain == 1) return vec3(0.0);
+vec4 sky_with_lights(vec3 direction) {
   float off = 1.0 - dot(direction, u_sun);
   float elevation = dot(direction, u_up);
   float band = smoothstep(0.02, 0.45, elevation) * (1.0 - 0.6 * smoothstep(0.5, 0.9, elevation));
   vec3 sun = SUN * (60.0 * exp(-off * 700.0) + 5.0 * exp(-off * 40.0));
-  return sun + vec3(1.1, 1.25, 1.4) * 1.6 * band;
+  return sky(direction) + vec4(sun + vec3(1.1, 1.25, 1.4) * 1.6 * band, 0.0);
 }
 
 // Share of lines of half width w, repeating with period 1, in [x - f, x + f].
@@ -60,12 +67,19 @@ float contact_shadow(vec2 p) {
   return 1.0 - 0.38 * fade * fade;
 }
 
+// Light of sun and sky that reaches a point of the floor through the fluid.
+vec3 sunlight(vec3 point) {
+  vec3 p = point - u_shadow_center;
+  vec2 at = vec2(dot(u_shadow_x, p), dot(u_shadow_y, p)) + 0.5;
+  return 1.0 - u_shadow_strength * (1.0 - textureLod(u_shadow, at, 0.0).rgb);
+}
+
 // @param reach  half of a pixel's extent on the floor along u_floor_x and u_floor_y [m]
 vec3 floor_color(vec3 point, vec2 reach) {
   vec2 p = vec2(dot(point, u_floor_x), dot(point, u_floor_y));
   vec2 f = max(reach / u_tile, 1e-3);
   float lines = max(line_cover(p.x / u_tile, 0.010, f.x), line_cover(p.y / u_tile, 0.010, f.y));
-  vec3 color = FLOOR * (1.0 - 0.35 * lines);
+  vec3 color = FLOOR * (1.0 - 0.35 * lines) * sunlight(point);
   return u_has_tank == 1 ? color * contact_shadow(p) : color;
 }
 
@@ -78,13 +92,13 @@ float distance_to_floor(vec3 point, vec3 direction) {
   return u_has_floor == 1 && down > 1e-4 ? max(height_above_floor(point), 0.0) / down : 1e9;
 }
 
-// Color that comes against a direction (unit vector) to a point.
+// Light that comes against a direction (unit vector) to a point.
+// @param beyond     that from farther than the floor
 // @param travelled  length of the path from the eye to the point [m]
 // @param spread     how much wider than a pixel the bundle of rays is, behind a curved surface
-vec3 environment(vec3 point, vec3 direction, float travelled, float spread) {
-  vec3 above = sky(direction);
+vec4 environment(vec4 beyond, vec3 point, vec3 direction, float travelled, float spread) {
   float way = distance_to_floor(point, direction);
-  if (way > 1e8 || height_above_floor(u_eye) < 0.0) return above;
+  if (way > 1e8 || height_above_floor(u_eye) < 0.0) return beyond;
   float down = -dot(direction, u_up);
   // A pixel on the floor: long along the ray where it comes in flat.
   float wide = 0.7 * spread / pixels_per_meter(travelled + way);
@@ -93,12 +107,13 @@ vec3 environment(vec3 point, vec3 direction, float travelled, float spread) {
   vec2 reach = wide * (flat_direction / max(down, 0.01) + flat_direction.yx);
   vec3 color = floor_color(point + way * direction, reach);
   float far = 1.0 - exp(-(travelled + way) / (30.0 * u_tile));
-  return mix(color, u_plain == 1 ? u_plain_color : HORIZON, far * smoothstep(0.45, 0.0, down));
+  return mix(vec4(color, 1.0), beyond, far * smoothstep(0.45, 0.0, down));
 }
 
 vec3 to_world(vec3 v) { return transpose(mat3(u_view)) * v; }
 
 // What a viewing ray (eye space) meets if there is no fluid.
-vec3 seen(vec3 origin, vec3 direction) {
-  return environment(u_eye + to_world(origin), to_world(direction), 0.0, 1.0);
+vec4 seen(vec3 origin, vec3 direction) {
+  vec3 d = to_world(direction);
+  return environment(BACKDROP(d), u_eye + to_world(origin), d, 0.0, 1.0);
 }

@@ -78,7 +78,8 @@ class Renderer:
         Returns
         -------
         ndarray, shape (height, width, 4), uint8
-            RGBA, sRGB-encoded, opaque. Row 0 is the top.
+            RGBA: sRGB-encoded colors, not multiplied by alpha, which is 255 everywhere unless the
+            background is transparent. Row 0 is the top.
 
         Raises
         ------

@@ -20,10 +20,10 @@ std::array<double, 3> seen(const RenderParams& params, double thickness, const V
     data.insert(data.end(), {normal.x(), normal.y(), normal.z(), 0});
   }
   const Texture normals(65, 65, Format::rgba32f, data.data());
-  const Texture color(65, 65, Format::rgba8);
+  const Texture color(65, 65, Format::srgb8);
   const Framebuffer out({&color});
-  const Composite pass(glsl_source);
-  pass({gl.tiles(), depth, thick, normals}, camera, params, out);
+  Composite pass(glsl_source);
+  pass({gl.tiles(), depth, thick, normals}, {SunShadow{}}, camera, params, out);
   std::vector<std::uint8_t> pixels(65 * 65 * 4);
   out.read(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   std::array<double, 3> linear{};
@@ -74,4 +74,31 @@ TEST_CASE("composite: fluid that absorbs all mirrors by Fresnel: 2 % head on, al
   const double p = (1.333 * c - t) / (1.333 * c + t);
   const Vec3 tilted(std::sqrt(0.75F), 0, 0.5F);
   CHECK(seen(params, 1, tilted)[0] / 0.8 == doctest::Approx((s * s + p * p) / 2).epsilon(0.05));
+}
+
+TEST_CASE("composite: a wall of the tank that the bent ray meets too flat mirrors it") {
+  RenderParams params = plain();
+  params.absorption = {1.0F, 0.5F, 0.0F};
+  params.tank_lower = Vec3(-5, -5, -4);
+  params.tank_upper = Vec3(0.1F, 5, -2);
+  // The surface is 2 m away, where the tank begins; the fluid fills it, 2 m deep.
+  for (const double degrees : {0.0, 20.0, 40.0}) {
+    CAPTURE(degrees);
+    const double tilt = degrees * 3.14159265 / 180;
+    const double inside = std::asin(std::sin(tilt) / 1.333);
+    // Bent towards +x, where the wall is 0.1 m away; mirrored there, so that the way to the far
+    // wall is as long as if that wall were not there.
+    const double way = 2 / std::cos(tilt - inside);
+    const double c = std::cos(tilt), t = std::cos(inside);
+    const double s = (c - 1.333 * t) / (c + 1.333 * t);
+    const double p = (1.333 * c - t) / (1.333 * c + t);
+    const double mirrored = (s * s + p * p) / 2;
+    const Vec3 normal(static_cast<Real>(-std::sin(tilt)), 0, static_cast<Real>(c));
+    const auto color = seen(params, 2, normal);
+    for (int k = 0; k < 3; ++k) {
+      const double left = std::exp(-params.absorption[k] * way);
+      CHECK(color[k] ==
+            doctest::Approx(0.7 * (mirrored + (1 - mirrored) * left)).epsilon(0.02));  // 8 bits
+    }
+  }
 }

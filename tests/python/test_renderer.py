@@ -221,7 +221,7 @@ def test_a_report_counts_particles_and_times_passes_when_asked(renderer):
         passes = list(timed.report["milliseconds"])
     assert passes == [
         *("crowding", "upload", "sphere_depth", "depth_smooth", "thickness_smooth"),
-        *("normal", "composite", "read_back"),
+        *("normal", "shadow", "composite", "read_back"),
     ]
     assert "OpenGL" in renderer.description
     assert set(renderer.info) == {"renderer", "vendor", "version", "platform"}

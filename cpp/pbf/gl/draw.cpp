@@ -8,6 +8,7 @@ void set_draw_state(Blend blend) {
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
+  glEnable(GL_FRAMEBUFFER_SRGB);
   if (blend == Blend::replace) {
     glDisable(GL_BLEND);
     return;
@@ -16,7 +17,7 @@ void set_draw_state(Blend blend) {
   glBlendEquation(blend == Blend::max || blend == Blend::max_and_add ? GL_MAX : GL_FUNC_ADD);
   if (blend == Blend::max_and_add) glBlendEquationi(1, GL_FUNC_ADD);
   if (blend == Blend::over) {
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   } else {
     glBlendFunc(GL_ONE, GL_ONE);
   }

@@ -8,10 +8,11 @@ enum class Blend {
   max,          ///< the larger value stays
   add,          ///< the sum
   max_and_add,  ///< max in the first target, add in the second; OpenGL 4.0
-  over,         ///< by the alpha of what is drawn
+  over,         ///< by the alpha of what is drawn, whose color has been multiplied by it
 };
 
-/// Sets all of the state that drawing depends on here: blending, back faces culled, no depth test.
+/// Sets all of the state that drawing depends on here: blending, back faces culled, no depth test,
+/// sRGB encoding where a target has it.
 void set_draw_state(Blend blend);
 
 /// Three vertices, of which glsl/fullscreen.vert makes a triangle that covers the target; replaces

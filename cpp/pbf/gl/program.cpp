@@ -133,4 +133,14 @@ void Program::set(const char* name, const Vec3& value) const {
   glUniform3f(location(name), value.x(), value.y(), value.z());
 }
 
+const Program& ProgramVariants::with(const std::vector<std::string>& defines) {
+  auto found = programs_.find(defines);
+  if (found == programs_.end()) {
+    ProgramFiles files = files_;
+    files.defines.insert(files.defines.end(), defines.begin(), defines.end());
+    found = programs_.try_emplace(defines, source_, files).first;
+  }
+  return found->second;
+}
+
 }  // namespace pbf

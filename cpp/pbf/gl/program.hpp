@@ -4,6 +4,7 @@
 #include "pbf/gl/handle.hpp"
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,21 @@ class Program {
  private:
   [[nodiscard]] GLint location(const char* name) const;
   GlHandle<ProgramKind> handle_;
+};
+
+/// Programs of the same files with different defines, each compiled when it is first asked for. A
+/// software rasterizer works off both branches of a condition, so that what a picture does not need
+/// is better left out of its program.
+class ProgramVariants {
+ public:
+  ProgramVariants(GlslSource source, ProgramFiles files)
+      : source_(std::move(source)), files_(std::move(files)) {}
+  const Program& with(const std::vector<std::string>& defines);
+
+ private:
+  GlslSource source_;
+  ProgramFiles files_;
+  std::map<std::vector<std::string>, Program> programs_;
 };
 
 }  // namespace pbf

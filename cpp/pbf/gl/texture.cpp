@@ -13,6 +13,8 @@ Layout layout_of(Format format) {
       return {GL_R32F, GL_RED, GL_FLOAT};
     case Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::srgb8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
     case Format::rgba8:
       break;
   }
@@ -21,13 +23,14 @@ Layout layout_of(Format format) {
 
 }  // namespace
 
-Texture::Texture(int width, int height, Format format, const void* data)
+Texture::Texture(int width, int height, Format format, const void* data, Sampling sampling)
     : width_(width), height_(height), format_(format) {
   const Layout layout = layout_of(format);
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  const GLint filter = sampling == Sampling::linear ? GL_LINEAR : GL_NEAREST;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(layout.internal), width, height, 0,

@@ -21,7 +21,9 @@ PBF_INLINE void for_each_lane(Mask mask, F&& f) {
     f(static_cast<std::uint32_t>(__builtin_ctz(left)));
   }
 }
-PBF_INLINE void set(std::uint8_t* flag) { __atomic_store_n(flag, std::uint8_t{1}, __ATOMIC_RELAXED); }
+PBF_INLINE void set(std::uint8_t* flag) {
+  __atomic_store_n(flag, std::uint8_t{1}, __ATOMIC_RELAXED);
+}
 
 float sum(const Candidates& candidates, const Record& particle, float inverse_s2, float* u) {
   const Candidates j = candidates;  // as numbers: no store changes them
@@ -48,7 +50,8 @@ float sum(const Candidates& candidates, const Record& particle, float inverse_s2
 void mark(const Candidates& candidates, const float* u, std::uint8_t* flags) {
   const Candidates j = candidates;
   for (std::uint32_t k = 0; k < j.count; k += kLanes) {
-    for_each_lane(Lanes(1.0F) <= 1.5F * load_lanes(u + k), [&](std::uint32_t lane)
+    for_each_lane(Lanes(1.0F) <= 1.5F * load_lanes(u + k),
+                  [&](std::uint32_t lane)
                       PBF_LAMBDA_INLINE { set(flags + j.entry[k + lane] / 4); });
   }
 }
@@ -61,11 +64,11 @@ void mark_unknown(const Candidates& candidates,
   const Candidates j = candidates;
   const Vec3Lanes x{particle.x, particle.y, particle.z};
   for (std::uint32_t k = 0; k < j.count; k += kLanes) {
-    for_each_lane(u_of(j, k, x, inverse_s2) > Lanes(0.0F), [&](std::uint32_t lane)
-                      PBF_LAMBDA_INLINE {
-                        const std::uint32_t at = j.entry[k + lane] / 4;
-                        if (particles[at].w < 0) set(flags + at);
-                      });
+    for_each_lane(u_of(j, k, x, inverse_s2) > Lanes(0.0F),
+                  [&](std::uint32_t lane) PBF_LAMBDA_INLINE {
+                    const std::uint32_t at = j.entry[k + lane] / 4;
+                    if (particles[at].w < 0) set(flags + at);
+                  });
   }
 }
 

@@ -5,6 +5,7 @@
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/passes/composite.hpp"
 #include "pbf/render/passes/normal.hpp"
+#include "pbf/render/passes/resolve.hpp"
 #include "pbf/render/passes/smooth.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
 #include "pbf/render/passes/thickness.hpp"
@@ -24,13 +25,15 @@ int checked_side(int side, const char* name) {
   return side;
 }
 
-void require_drawable(int width, int height) {
+void require_drawable(int width, int height, int factor) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  limit /= factor;
   if (width > limit || height > limit) {
     throw InvalidParameter((width > limit ? "width = " + std::to_string(width)
                                           : "height = " + std::to_string(height)) +
-                           " pixels: this driver draws at most " + std::to_string(limit));
+                           " pixels: this driver draws at most " + std::to_string(limit) +
+                           (factor > 1 ? " with supersampling = " + std::to_string(factor) : ""));
   }
 }
 
@@ -75,6 +78,7 @@ struct FluidRenderer::Passes {
   Smooth smooth{glsl_source};
   Normal normal{glsl_source};
   Composite composite{glsl_source};
+  Resolve resolve{glsl_source};
 };
 
 /// A texture and the framebuffer that draws into it.
@@ -94,31 +98,38 @@ struct FluidRenderer::Targets {
         depth_smooth(w, h, Format::r32f),
         thickness_smooth(w, h, Format::r32f),
         normal(w, h, Format::rgba32f),
-        color(w, h, Format::rgba8),
-        tiles(w, h) {}
+        color(w, h, Format::srgb8),
+        tiles(w, h),
+        width(w),
+        height(h) {}
   Target depth, thickness;          ///< affine depth; [m]
   Framebuffer depth_and_thickness;  ///< both of these at once
   Target between;                   ///< a filter's first half
   Target depth_smooth;              ///< affine depth
   Target thickness_smooth;          ///< [m]
   Target normal;                    ///< eye space
-  Target color;                     ///< sRGB
+  Target color;                     ///< multiplied by alpha
   FluidTiles tiles;                 ///< where any of these can hold fluid
+  int width, height;
 };
 
 FluidRenderer::FluidRenderer(int width, int height, SurfacePasses surface)
     : width_(checked_side(width, "width")), height_(checked_side(height, "height")) {
   const auto current = context_.make_current();
-  require_drawable(width, height);
+  require_drawable(width, height, 1);
   auto passes = std::make_unique<Passes>(context_.has_version(4, 0));
-  auto targets = std::make_unique<Targets>(width, height);
-  require_no_gl_error();
   const bool outrun = is_software(context_.info());
-  if (surface == SurfacePasses::cpp || (surface == SurfacePasses::automatic && outrun)) {
-    maps_ = std::make_unique<raster::SurfaceMaps>(width, height);
-  }
+  in_cpp_ = surface == SurfacePasses::cpp || (surface == SurfacePasses::automatic && outrun);
+  prepare_targets(1);
+  require_no_gl_error();
   passes_ = std::move(passes);
-  targets_ = std::move(targets);
+}
+
+void FluidRenderer::prepare_targets(int factor) {
+  if (targets_ != nullptr && targets_->width == factor * width_) return;
+  require_drawable(width_, height_, factor);
+  targets_ = std::make_unique<Targets>(factor * width_, factor * height_);
+  if (in_cpp_) maps_ = std::make_unique<raster::SurfaceMaps>(factor * width_, factor * height_);
 }
 
 FluidRenderer::~FluidRenderer() {
@@ -147,7 +158,7 @@ Surface FluidRenderer::draw(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params) {
   report_ = {.particles = positions.cols(), .milliseconds = {}};
-  const FrameBlock frame = frame_block(camera, width_, height_);
+  const FrameBlock frame = frame_block(camera, targets_->width, targets_->height);
   passes_->frame.upload(&frame, sizeof frame);
   passes_->frame.bind_base(0);
   return maps_ ? draw_in_cpp(positions, camera, params) : draw_in_glsl(positions, camera, params);
@@ -214,11 +225,23 @@ Image FluidRenderer::render(const PointsView& positions,
   validate(params);
   require_finite(positions);
   const auto current = context_.make_current();
+  const int factor = params.supersampling;
+  prepare_targets(factor);
   const Surface surface = draw(positions, camera, params);
-  stage("composite",
-        [&] { passes_->composite(surface, camera, params, targets_->color.framebuffer); });
+  SunShadow shadow;
+  stage("shadow", [&] { shadow = sun_shadow(positions, params); });
+  stage("composite", [&] {
+    passes_->composite(surface, {shadow}, camera, params, targets_->color.framebuffer);
+  });
   Image image;
-  stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
+  if (factor > 1 || params.background == Background::transparent) {
+    const Target picture(width_, height_, Format::srgb8);
+    stage("resolve",
+          [&] { passes_->resolve(targets_->color.texture, factor, picture.framebuffer); });
+    stage("read_back", [&] { image = read_rgba8(picture.texture); });
+  } else {
+    stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
+  }
   require_no_gl_error();
   return image;
 }
@@ -230,6 +253,7 @@ Layers FluidRenderer::layers(const PointsView& positions,
   validate(params);
   require_finite(positions);
   const auto current = context_.make_current();
+  prepare_targets(1);
   const Surface surface = draw(positions, camera, params);
   Layers layers;
   stage("read_back", [&] {

@@ -59,6 +59,8 @@ class FluidRenderer {
  private:
   struct Passes;
   struct Targets;
+  /// Makes targets of `factor` times the picture's size unless there are.
+  void prepare_targets(int factor);
   Surface draw(const PointsView& positions, const Camera& camera, const RenderParams& params);
   Surface draw_in_glsl(const PointsView& positions,
                        const Camera& camera,
@@ -76,6 +78,7 @@ class FluidRenderer {
   std::unique_ptr<Passes> passes_;
   std::unique_ptr<Targets> targets_;
   std::unique_ptr<raster::SurfaceMaps> maps_;  ///< null where shaders draw the surface
+  bool in_cpp_ = false;
   RenderReport report_;
 };
 

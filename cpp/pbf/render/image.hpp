@@ -15,7 +15,7 @@ struct Pixels {
   }
 };
 
-/// RGBA, sRGB-encoded, opaque.
+/// RGBA: sRGB-encoded colors, not multiplied by alpha.
 using Image = Pixels<std::uint8_t>;
 
 /// What the picture is made from.

@@ -21,10 +21,24 @@ struct Choices<ThicknessSmoothing> {
 };
 
 /// What stands behind and around the fluid.
-enum class Background { sky, plain };
+enum class Background { sky, plain, transparent };
 template <>
 struct Choices<Background> {
+  static constexpr std::array names{"sky", "plain", "transparent"};
+};
+
+/// What the fluid's surface mirrors, beside the floor.
+enum class Reflection { sky, plain };
+template <>
+struct Choices<Reflection> {
   static constexpr std::array names{"sky", "plain"};
+};
+
+/// How light that is too bright for a screen is brought back.
+enum class ToneMapping { soft, none, aces };
+template <>
+struct Choices<ToneMapping> {
+  static constexpr std::array names{"soft", "none", "aces"};
 };
 
 /// How the fluid is drawn. SI units; colors are linear, 0 to 1.
@@ -44,14 +58,18 @@ struct RenderParams {
   Vec3 scatter{0.015F, 0.12F, 0.19F};
   Real refractive_index = 1.333F;
   Background background = Background::sky;
+  std::optional<Reflection> reflection = std::nullopt;
   Vec3 background_color{1.0F, 1.0F, 1.0F};
   Vec3 sun_direction{-0.45F, 0.8F, 0.35F};
+  Real shadow = 0.6F;
   Vec3 up{0.0F, 1.0F, 0.0F};
   bool floor = true;
   std::optional<Real> floor_height = std::nullopt;
   std::optional<Vec3> tank_lower = std::nullopt;
   std::optional<Vec3> tank_upper = std::nullopt;
   Real exposure = 1.0F;
+  ToneMapping tone_mapping = ToneMapping::soft;
+  int supersampling = 1;
 
   // What the optional fields stand for when not given.
   [[nodiscard]] Real drop_radius_in_force() const { return drop_radius.value_or(radius); }
@@ -67,6 +85,11 @@ struct RenderParams {
   }
   [[nodiscard]] Real thickness_range_in_force() const {
     return thickness_range.value_or(4.0F * radius);
+  }
+
+  [[nodiscard]] Reflection reflection_in_force() const {
+    return reflection.value_or(background == Background::plain ? Reflection::plain
+                                                               : Reflection::sky);
   }
 
   static constexpr const char* kName = "RenderParams";
@@ -117,11 +140,22 @@ struct RenderParams {
               "1.333 for water. Bends what is seen through the fluid and makes its surface a "
               "mirror."},
         Field{"background", &P::background, "", anything(),
-              "sky: a bright sky with a sun. plain: background_color everywhere."},
+              "sky: a bright sky with a sun. plain: background_color everywhere. transparent: "
+              "nothing; the "
+              "picture's alpha says how much of another background comes through floor and fluid."},
+        Field{"reflection", &P::reflection, "", anything(),
+              "What the surface mirrors beside the floor: sky, with studio lights, or plain, "
+              "background_color everywhere. If not given, plain before a plain background, else "
+              "sky."},
         Field{"background_color", &P::background_color, "", between(0, 1),
-              "Color of the plain background."},
+              "Color of the plain background. A transparent picture is exact over it; over others "
+              "fluid that absorbs colors unequally loses a little of its tint."},
         Field{"sun_direction", &P::sun_direction, "", between(-1e6, 1e6),
               "Towards the sun. Any length but zero."},
+        Field{"shadow", &P::shadow, "", between(0, 1),
+              "How much of the floor's light comes from the sun, and is absorbed in the fluid's "
+              "shadow. 0: no "
+              "shadow. 1: black where no light comes through."},
         Field{
             "up", &P::up, "", between(-1e6, 1e6),
             "Up in the scene: the floor lies across it, the zenith is there. Any length but zero."},
@@ -133,6 +167,14 @@ struct RenderParams {
               "A corner of the tank whose edges are drawn; none if not given."},
         Field{"tank_upper", &P::tank_upper, "m", between(-1e9, 1e9), "The opposite corner."},
         Field{"exposure", &P::exposure, "", inside(0, 1e6), "Brightness of the picture."},
+        Field{"tone_mapping", &P::tone_mapping, "", anything(),
+              "How bright light is brought into the picture. soft: values below 0.8 stay as they "
+              "are. none: "
+              "values above 1 are cut off. aces: the contrast of film, darker and more colorful."},
+        Field{"supersampling", &P::supersampling, "", between(1, 4),
+              "The picture is drawn this many times wider and higher, and averaged in linear "
+              "light: smoother "
+              "edges, and as many times squared slower. Layers are not."},
     };
   }
   void check_together(Faults& faults) const;

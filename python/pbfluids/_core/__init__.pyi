@@ -611,14 +611,18 @@ class RenderParams:
         scatter: collections.abc.Sequence[float] = ...,
         refractive_index: float = ...,
         background: str = ...,
+        reflection: str | None = ...,
         background_color: collections.abc.Sequence[float] = ...,
         sun_direction: collections.abc.Sequence[float] = ...,
+        shadow: float = ...,
         up: collections.abc.Sequence[float] = ...,
         floor: bool = ...,
         floor_height: float | None = ...,
         tank_lower: collections.abc.Sequence[float] | None = ...,
         tank_upper: collections.abc.Sequence[float] | None = ...,
         exposure: float = ...,
+        tone_mapping: str = ...,
+        supersampling: int = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -646,14 +650,14 @@ class RenderParams:
     @property
     def background(self) -> str:
         """
-        sky: a bright sky with a sun. plain: background_color everywhere.
+        sky: a bright sky with a sun. plain: background_color everywhere. transparent: nothing; the picture's alpha says how much of another background comes through floor and fluid.
         """
     @background.setter
     def background(self, arg1: str) -> None: ...
     @property
     def background_color(self) -> tuple[float, float, float]:
         """
-        Color of the plain background.
+        Color of the plain background. A transparent picture is exact over it; over others fluid that absorbs colors unequally loses a little of its tint.
         """
     @background_color.setter
     def background_color(
@@ -707,6 +711,13 @@ class RenderParams:
     @radius.setter
     def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def reflection(self) -> str | None:
+        """
+        What the surface mirrors beside the floor: sky, with studio lights, or plain, background_color everywhere. If not given, plain before a plain background, else sky.
+        """
+    @reflection.setter
+    def reflection(self, arg1: str | None) -> None: ...
+    @property
     def refractive_index(self) -> float:
         """
         1.333 for water. Bends what is seen through the fluid and makes its surface a mirror.
@@ -727,6 +738,13 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
+    @property
+    def shadow(self) -> float:
+        """
+        How much of the floor's light comes from the sun, and is absorbed in the fluid's shadow. 0: no shadow. 1: black where no light comes through.
+        """
+    @shadow.setter
+    def shadow(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def smoothing(self) -> str:
         """
@@ -771,6 +789,13 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
+    @property
+    def supersampling(self) -> int:
+        """
+        The picture is drawn this many times wider and higher, and averaged in linear light: smoother edges, and as many times squared slower. Layers are not.
+        """
+    @supersampling.setter
+    def supersampling(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def tank_lower(self) -> tuple[float, float, float] | None:
         """
@@ -831,6 +856,13 @@ class RenderParams:
         """
     @thickness_smoothing.setter
     def thickness_smoothing(self, arg1: str) -> None: ...
+    @property
+    def tone_mapping(self) -> str:
+        """
+        How bright light is brought into the picture. soft: values below 0.8 stay as they are. none: values above 1 are cut off. aces: the contrast of film, darker and more colorful.
+        """
+    @tone_mapping.setter
+    def tone_mapping(self, arg1: str) -> None: ...
     @property
     def up(self) -> tuple[float, float, float]:
         """

@@ -19,20 +19,37 @@ Real floor_height(const RenderParams& params, const Vec3& up) {
   return lowest;
 }
 
-/// Half the width of the tank's edges with the soft margin [pixels].
+/// Half the width of the tank's edges with the soft margin [pixels of the finished picture].
 constexpr Real kEdgeHalfWidth = 1.3F;
+
+/// Names of functions of display.glsl and environment.glsl.
+std::vector<std::string> defines(const RenderParams& params) {
+  const bool mirrors_sky = params.reflection_in_force() == Reflection::sky;
+  const std::string backdrop = params.background == Background::sky     ? "sky"
+                               : params.background == Background::plain ? "plain"
+                                                                        : "nothing";
+  return {"TONE tone_" + std::string(Choices<ToneMapping>::names.at(
+                             static_cast<std::size_t>(params.tone_mapping))),
+          "BACKDROP " + backdrop,
+          "MIRRORED " + std::string(mirrors_sky ? "sky_with_lights" : "plain")};
+}
 
 /// Tiles about a dozen sprites wide: in scale with the scene, whatever its size.
 constexpr Real kTileInRadii = 12.5F;
 
-void set_environment(const Program& program, const Camera& camera, const RenderParams& params) {
+/// Texture units.
+enum Unit { kDepth, kThickness, kNormal, kShadow };
+
+void set_environment(const Program& program,
+                     const Surroundings& surroundings,
+                     const Camera& camera,
+                     const RenderParams& params) {
   const Vec3 up = params.up.normalized();
   const bool along_x = std::abs(up.x()) > 0.9F;
   const Vec3 floor_x = (along_x ? Vec3::UnitY() : Vec3::UnitX()).cross(up).cross(-up).normalized();
   program.set("u_up", up);
   program.set("u_sun", Vec3(params.sun_direction.normalized()));
-  program.set("u_plain", params.background == Background::plain ? 1 : 0);
-  program.set("u_plain_color", params.background_color);
+  program.set("u_background_color", params.background_color);
   program.set("u_has_floor", params.floor ? 1 : 0);
   program.set("u_floor_height", floor_height(params, up));
   program.set("u_tile", kTileInRadii * params.radius);
@@ -42,6 +59,11 @@ void set_environment(const Program& program, const Camera& camera, const RenderP
   program.set("u_floor_x", floor_x);
   program.set("u_floor_y", Vec3(up.cross(floor_x)));
   program.set("u_eye", camera.eye);
+  program.set("u_shadow", kShadow);
+  program.set("u_shadow_center", surroundings.shadow.center);
+  program.set("u_shadow_x", surroundings.shadow.x);
+  program.set("u_shadow_y", surroundings.shadow.y);
+  program.set("u_shadow_strength", params.shadow);
   program.set("u_exposure", params.exposure);
 }
 
@@ -60,40 +82,51 @@ Composite::Composite(const GlslSource& source)
       tank_edges_(source,
                   {.vertex = {"frame.glsl", "tank_edges.vert"},
                    .fragment = {"frame.glsl", "tank_edges.frag"},
-                   .defines = {}}) {}
+                   .defines = {}}) {
+  // An error in a shader shows when the renderer is made.
+  (void)background_.with(defines({}));
+  (void)fluid_.with(defines({}));
+}
 
 void Composite::operator()(const Surface& surface,
+                           const Surroundings& surroundings,
                            const Camera& camera,
                            const RenderParams& params,
-                           const Framebuffer& out) const {
-  surface.depth.bind(0);
-  surface.thickness.bind(1);
-  surface.normal.bind(2);
+                           const Framebuffer& out) {
+  const SunShadow& sun = surroundings.shadow;
+  const Texture shadow(sun.width, sun.height, Format::rgba8, sun.transmittance.data(),
+                       Sampling::linear);
+  shadow.bind(kShadow);
+  surface.depth.bind(kDepth);
+  surface.thickness.bind(kThickness);
+  surface.normal.bind(kNormal);
   out.bind();
-  background_.use();
-  set_environment(background_, camera, params);
+  const Program& background = background_.with(defines(params));
+  background.use();
+  set_environment(background, surroundings, camera, params);
   no_vertices_.bind();
   draw_fullscreen();
-  fluid_.use();
-  set_environment(fluid_, camera, params);
-  fluid_.set("u_depth", 0);
-  fluid_.set("u_thickness", 1);
-  fluid_.set("u_normal", 2);
-  fluid_.set("u_absorption", params.absorption);
-  fluid_.set("u_scatter", params.scatter);
-  fluid_.set("u_refractive_index", params.refractive_index);
-  fluid_.set("u_radius", params.radius);
+  const Program& fluid = fluid_.with(defines(params));
+  fluid.use();
+  set_environment(fluid, surroundings, camera, params);
+  fluid.set("u_depth", kDepth);
+  fluid.set("u_thickness", kThickness);
+  fluid.set("u_normal", kNormal);
+  fluid.set("u_absorption", params.absorption);
+  fluid.set("u_scatter", params.scatter);
+  fluid.set("u_refractive_index", params.refractive_index);
+  fluid.set("u_radius", params.radius);
   const Real disc = std::numbers::pi_v<Real> * params.radius * params.radius;
-  fluid_.set("u_sprite_thickness", params.volume_in_force() / disc);
-  surface.tiles.draw();
+  fluid.set("u_sprite_thickness", params.volume_in_force() / disc);
+  surface.tiles.draw(Blend::over);
   if (!params.tank_lower) return;
   tank_edges_.use();
-  tank_edges_.set("u_depth", 0);
-  tank_edges_.set("u_thickness", 1);
+  tank_edges_.set("u_depth", kDepth);
+  tank_edges_.set("u_thickness", kThickness);
   tank_edges_.set("u_absorption", params.absorption);
   tank_edges_.set("u_tank_lower", *params.tank_lower);
   tank_edges_.set("u_tank_upper", *params.tank_upper);
-  tank_edges_.set("u_half_width", kEdgeHalfWidth);
+  tank_edges_.set("u_half_width", kEdgeHalfWidth * static_cast<Real>(params.supersampling));
   no_vertices_.bind();
   set_draw_state(Blend::over);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 12);

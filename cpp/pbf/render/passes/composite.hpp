@@ -5,6 +5,7 @@
 #include "pbf/render/camera.hpp"
 #include "pbf/render/params.hpp"
 #include "pbf/render/passes/fluid_tiles.hpp"
+#include "pbf/render/sun_shadow.hpp"
 
 namespace pbf {
 
@@ -16,21 +17,27 @@ struct Surface {
   const Texture& normal;
 };
 
+/// What stands around it.
+struct Surroundings {
+  const SunShadow& shadow;
+};
+
 /// The picture: sky, floor and fluid. At the fluid's surface light is mirrored and bent (Fresnel,
 /// Snell); what comes through is absorbed along the thickness (Beer-Lambert). The tank's edges are
 /// drawn over it, or seen through the fluid.
 class Composite {
  public:
   explicit Composite(const GlslSource& source);
-  /// @param out  rgba8, sRGB-encoded
+  /// @param out  srgb8, multiplied by alpha
   void operator()(const Surface& surface,
+                  const Surroundings& surroundings,
                   const Camera& camera,
                   const RenderParams& params,
-                  const Framebuffer& out) const;
+                  const Framebuffer& out);
 
  private:
-  Program background_;
-  Program fluid_;
+  ProgramVariants background_;
+  ProgramVariants fluid_;
   Program tank_edges_;
   VertexArray no_vertices_;
 };

@@ -1,7 +1,5 @@
 #include "pbf/render/passes/fluid_tiles.hpp"
 
-#include "pbf/gl/draw.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -25,10 +23,7 @@ Span tiles_between(float low, float high, int pixels, int tiles) {
 }  // namespace
 
 FluidTiles::FluidTiles(int width, int height)
-    : width_(width),
-      height_(height),
-      buffer_(GL_ARRAY_BUFFER),
-      reached_(width, height) {
+    : width_(width), height_(height), buffer_(GL_ARRAY_BUFFER), reached_(width, height) {
   array_.instances(buffer_, 3, 0);
 }
 
@@ -71,8 +66,8 @@ void FluidTiles::upload(const raster::Tiles& tiles) {
   buffer_.upload(corners.data(), static_cast<GLsizeiptr>(corners.size() * sizeof(float)));
 }
 
-void FluidTiles::draw() const {
-  set_draw_state(Blend::replace);
+void FluidTiles::draw(Blend blend) const {
+  set_draw_state(blend);
   array_.bind();
   if (count_ > 0) glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
 }

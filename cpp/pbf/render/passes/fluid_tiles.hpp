@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pbf/gl/buffer.hpp"
+#include "pbf/gl/draw.hpp"
 #include "pbf/render/camera.hpp"
 #include "pbf/render/raster/tiles.hpp"
 
@@ -18,8 +19,8 @@ class FluidTiles {
   void find(const PointsView& positions, const Camera& camera, Real radius);
   /// Takes over squares that were found.
   void upload(const raster::Tiles& tiles);
-  /// Replaces what is in these squares of the target; for programs with glsl/fluid_tiles.vert.
-  void draw() const;
+  /// Draws these squares of the target; for programs with glsl/fluid_tiles.vert.
+  void draw(Blend blend = Blend::replace) const;
 
  private:
   int width_, height_;

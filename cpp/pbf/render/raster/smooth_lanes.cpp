@@ -17,7 +17,6 @@ using Kind = SmoothTerms::Kind;
 
 constexpr float kMostPixels = 65536;
 
-
 PBF_INLINE float highest(Lanes a) {
   float result = a.v[0];
   for (int lane = 1; lane < kLanes; ++lane) result = result > a.v[lane] ? result : a.v[lane];

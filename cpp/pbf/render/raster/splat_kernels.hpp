@@ -11,13 +11,13 @@ namespace pbf::raster {
 /// The uniforms of glsl/sprite.vert and glsl/frame.glsl: plain numbers, for loops that are compiled
 /// for several instruction sets.
 struct SplatView {
-  float view[16];                ///< world to eye space, column by column
-  float half_width, half_height; ///< of what is seen (at depth 1 in perspective) [m]
-  float near, far;               ///< [m]
-  float width, height;           ///< [pixels]
+  float view[16];                 ///< world to eye space, column by column
+  float half_width, half_height;  ///< of what is seen (at depth 1 in perspective) [m]
+  float near, far;                ///< [m]
+  float width, height;            ///< [pixels]
   bool perspective;
-  float radius, drop_radius;     ///< [m]
-  float volume;                  ///< of a particle [m³]
+  float radius, drop_radius;  ///< [m]
+  float volume;               ///< of a particle [m³]
 };
 
 /// Tiles that a sprite covers, the last ones included; none if the first column exceeds the last.

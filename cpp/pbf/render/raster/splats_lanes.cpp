@@ -35,8 +35,7 @@ PBF_INLINE Interval slopes(Lanes x, Lanes z, Lanes radius, Lanes near) {
   const Lanes high_along = z * t - x * radius;
   const Lanes in_front = near * length2;
   const auto beyond = [&](Lanes along) PBF_LAMBDA_INLINE { return in_front <= along * t; };
-  result.low =
-      select(outside & beyond(low_along), (x * t - z * radius) / low_along, result.low);
+  result.low = select(outside & beyond(low_along), (x * t - z * radius) / low_along, result.low);
   result.high =
       select(outside & beyond(high_along), (x * t + z * radius) / high_along, result.high);
   return result;
@@ -91,8 +90,8 @@ void project(const Record* particles,
     const Ints left = first_pixel(at.left), right = first_pixel(at.right);
     const Ints bottom = first_pixel(at.bottom), top = first_pixel(at.top);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const bool covers = at.visible.v[lane] != 0 && left[lane] < right[lane] &&
-                          bottom[lane] < top[lane];
+      const bool covers =
+          at.visible.v[lane] != 0 && left[lane] < right[lane] && bottom[lane] < top[lane];
       const auto tile = [](int pixel) { return static_cast<std::int16_t>(pixel / kTileSide); };
       boxes[i + lane] = covers ? TileBox{tile(left[lane]), tile(right[lane] - 1),
                                          tile(bottom[lane]), tile(top[lane] - 1)}

@@ -1,0 +1,146 @@
+#include "pbf/render/sun_shadow.hpp"
+
+#include "pbf/core/parallel.hpp"
+
+#include <Eigen/Geometry>
+
+#include <array>
+
+namespace pbf {
+namespace {
+
+constexpr int kThreads = 0;  // all there are
+/// Width of the Gaussian and of the margin around the fluid [texels].
+constexpr Real kDeviation = 2;
+constexpr int kReach = 6;
+/// Particles farther out than this, in root mean squares, cast none: one that flew off must not
+/// take the grid with it.
+constexpr double kFarthest = 6;
+
+using Grid = std::vector<Real>;
+
+struct Frame {
+  Vec3 x, y;  // unit vectors across the sun's rays
+};
+
+Frame across(const Vec3& sun) {
+  const Vec3 other = std::abs(sun.x()) < 0.7F ? Vec3::UnitX() : Vec3::UnitZ();
+  const Vec3 x = other.cross(sun).normalized();
+  return {x, sun.cross(x)};
+}
+
+/// The part of an axis that the grid covers [m].
+struct Extent {
+  double middle = 0, half = 0;
+};
+
+Extent extent(const PointsView& positions, const Vec3& axis) {
+  const auto at = [&](Index i) { return static_cast<double>(axis.dot(positions.col(i))); };
+  const auto n = static_cast<double>(positions.cols());
+  const double mean = parallel_sum(positions.cols(), kThreads, at) / n;
+  const double variance = parallel_sum(positions.cols(), kThreads,
+                                       [&](Index i) { return (at(i) - mean) * (at(i) - mean); }) /
+                          n;
+  const double limit = kFarthest * std::sqrt(variance);
+  double low = kInfinity, high = -kInfinity;
+  for (Index i = 0; i < positions.cols(); ++i) {
+    const double p = at(i);
+    if (std::abs(p - mean) > limit) continue;
+    low = std::min(low, p);
+    high = std::max(high, p);
+  }
+  return {0.5 * (low + high), 0.5 * (high - low)};
+}
+
+/// Each volume goes to the four texels around it, shared so that its center stays where it is.
+Grid columns(const PointsView& positions, const SunShadow& map, Real volume, Real texel) {
+  Grid grid(static_cast<std::size_t>(map.width) * map.height);
+  const Real t = volume / (texel * texel);
+  const auto w = static_cast<Real>(map.width);
+  const auto h = static_cast<Real>(map.height);
+  for (Index i = 0; i < positions.cols(); ++i) {
+    const Vec3 p = positions.col(i) - map.center;
+    const Real u = (map.x.dot(p) + 0.5F) * w - 0.5F;
+    const Real v = (map.y.dot(p) + 0.5F) * h - 0.5F;
+    if (!(u >= 0 && v >= 0 && u < w - 1 && v < h - 1)) continue;
+    const int column = static_cast<int>(u);
+    const int row = static_cast<int>(v);
+    const Real right = u - static_cast<Real>(column);
+    const Real up = v - static_cast<Real>(row);
+    Real* at = grid.data() + static_cast<std::size_t>(row) * map.width + column;
+    at[0] += t * (1 - right) * (1 - up);
+    at[1] += t * right * (1 - up);
+    at[map.width] += t * (1 - right) * up;
+    at[map.width + 1] += t * right * up;
+  }
+  return grid;
+}
+
+/// Weights of the Gaussian at 0, 1, … kReach texels; over both sides they add up to 1.
+std::array<Real, kReach + 1> gaussian() {
+  std::array<Real, kReach + 1> weights{};
+  Real sum = 0;
+  for (int k = 0; k <= kReach; ++k) {
+    weights[k] = std::exp(-0.5F * static_cast<Real>(k * k) / (kDeviation * kDeviation));
+    sum += k == 0 ? weights[k] : 2 * weights[k];
+  }
+  for (Real& weight : weights) weight /= sum;
+  return weights;
+}
+
+/// Along texels `stride` apart; the border, kReach texels wide, stays as it is: empty.
+Grid blurred(const Grid& grid, const SunShadow& map, int stride) {
+  static const auto weights = gaussian();
+  Grid result(grid.size());
+  parallel_for(map.height, kThreads, [&](Index row) {
+    if (stride > 1 && (row < kReach || row >= map.height - kReach)) return;
+    const int margin = stride > 1 ? 0 : kReach;
+    const std::size_t first = static_cast<std::size_t>(row) * map.width;
+    for (std::size_t k = first + margin; k < first + map.width - margin; ++k) {
+      Real sum = weights[0] * grid[k];
+      for (int tap = 1; tap <= kReach; ++tap) {
+        const auto away = static_cast<std::size_t>(tap) * stride;
+        sum += weights[tap] * (grid[k - away] + grid[k + away]);
+      }
+      result[k] = sum;
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+SunShadow sun_shadow(const PointsView& positions, const RenderParams& params) {
+  const Vec3 sun = params.sun_direction.normalized();
+  SunShadow map;
+  if (!params.floor || params.shadow == 0 || positions.cols() == 0) return map;
+  if (sun.dot(params.up.normalized()) <= 0) return map;
+  const Frame frame = across(sun);
+  const Extent along_x = extent(positions, frame.x);
+  const Extent along_y = extent(positions, frame.y);
+  // The Gaussian reaches three deviations, volumes go half a texel farther; then a white border.
+  constexpr int kMargin = 2 * kReach + 2;
+  const double widest = 2 * std::max(along_x.half, along_y.half);
+  const double texel = std::max(static_cast<double>(params.radius / kDeviation),
+                                widest / (SunShadow::kMostTexels - 2 * kMargin));
+  map.width = static_cast<int>(std::ceil(2 * along_x.half / texel)) + 2 * kMargin;
+  map.height = static_cast<int>(std::ceil(2 * along_y.half / texel)) + 2 * kMargin;
+  map.center = (along_x.middle * frame.x.cast<double>() + along_y.middle * frame.y.cast<double>())
+                   .cast<Real>();
+  map.x = frame.x / static_cast<Real>(texel * map.width);
+  map.y = frame.y / static_cast<Real>(texel * map.height);
+  Grid t = columns(positions, map, params.volume_in_force(), static_cast<Real>(texel));
+  t = blurred(blurred(t, map, 1), map, map.width);
+  map.transmittance.resize(4 * t.size());
+  parallel_for(static_cast<Index>(t.size()), kThreads, [&](Index k) {
+    const auto texel_data = map.transmittance.data() + 4 * k;
+    for (int c = 0; c < 3; ++c) {
+      const Real left = std::exp(-params.absorption[c] * t[static_cast<std::size_t>(k)]);
+      texel_data[c] = static_cast<std::uint8_t>(255 * left + 0.5F);
+    }
+    texel_data[3] = 255;
+  });
+  return map;
+}
+
+}  // namespace pbf
