@@ -59,6 +59,8 @@ struct Lanes {
   friend PBF_INLINE Mask operator==(Lanes a, Lanes b) { return {a.v == b.v}; }
 };
 
+PBF_INLINE Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
+
 /// a where the mask holds, b elsewhere.
 PBF_INLINE Lanes select(Mask mask, Lanes a, Lanes b) { return {mask.v ? a.v : b.v}; }
 
@@ -123,6 +125,7 @@ PBF_INLINE T load(const void* from) {
   return value;
 }
 PBF_INLINE Lanes load_lanes(const Real* from) { return load<Lanes>(from); }
+PBF_INLINE void store(Real* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 
 /// A vector of space for each of kLanes particles.
 struct Vec3Lanes {

@@ -11,7 +11,6 @@ namespace {
 
 using Entries = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 
-PBF_INLINE void store(void* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 PBF_INLINE void store(void* to, Entries value) { std::memcpy(to, &value, sizeof value); }
 
 Entries lane_numbers() {

@@ -41,6 +41,7 @@ void FluidTiles::mark(int x0, int x1, int y0, int y1) {
 
 void FluidTiles::find(const PointsView& positions, const Camera& camera, Real radius) {
   reached_.assign(static_cast<std::size_t>(columns_) * rows_, 0);
+  nearest_ = camera.far;
   const Eigen::Matrix4f view = camera.view();
   const float half_height = camera.half_height();
   const float half_width = half_height * static_cast<float>(width_) / static_cast<float>(height_);
@@ -63,6 +64,8 @@ void FluidTiles::find(const PointsView& positions, const Camera& camera, Real ra
     const Span x = span(center.x(), half_width, width_, columns_);
     const Span y = span(center.y(), half_height, height_, rows_);
     mark(x.first, x.last, y.first, y.last);
+    const bool seen = x.first <= x.last && y.first <= y.last;
+    if (seen) nearest_ = std::min(nearest_, near);
   }
   std::vector<float> corners;
   for (int y = 0; y < rows_; ++y) {
