@@ -11,6 +11,7 @@ namespace {
 
 using Entries = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 
+PBF_INLINE void store(void* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 PBF_INLINE void store(void* to, Entries value) { std::memcpy(to, &value, sizeof value); }
 
 Entries lane_numbers() {
