@@ -4,6 +4,7 @@
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/passes/composite.hpp"
+#include "pbf/render/passes/curvature_flow.hpp"
 #include "pbf/render/passes/normal.hpp"
 #include "pbf/render/passes/resolve.hpp"
 #include "pbf/render/passes/smooth.hpp"
@@ -11,6 +12,7 @@
 #include "pbf/render/passes/thickness.hpp"
 #include "pbf/render/raster/surface_maps.hpp"
 #include "pbf/render/read_back.hpp"
+#include "pbf/render/target.hpp"
 
 #include <chrono>
 
@@ -76,17 +78,10 @@ struct FluidRenderer::Passes {
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
   Smooth smooth{glsl_source};
+  CurvatureFlow curvature_flow{glsl_source};
   Normal normal{glsl_source};
   Composite composite{glsl_source};
   Resolve resolve{glsl_source};
-};
-
-/// A texture and the framebuffer that draws into it.
-struct Target {
-  Target(int width, int height, Format format)
-      : texture(width, height, format), framebuffer({&texture}) {}
-  Texture texture;
-  Framebuffer framebuffer;
 };
 
 struct FluidRenderer::Targets {
@@ -161,7 +156,8 @@ Surface FluidRenderer::draw(const PointsView& positions,
   const FrameBlock frame = frame_block(camera, targets_->width, targets_->height);
   passes_->frame.upload(&frame, sizeof frame);
   passes_->frame.bind_base(0);
-  return maps_ ? draw_in_cpp(positions, camera, params) : draw_in_glsl(positions, camera, params);
+  return maps_ ? draw_in_cpp(positions, camera, params)
+               : draw_in_glsl(positions, camera, frame, params);
 }
 
 Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
@@ -182,6 +178,7 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
 
 Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                                     const Camera& camera,
+                                    const FrameBlock& frame,
                                     const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
@@ -198,21 +195,40 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth.framebuffer); });
     stage("thickness", [&] { (*pass.thickness)(pass.sprites, params, to.thickness.framebuffer); });
   }
+  const auto smooth = [&](const LayerFilter& filter, int iterations, const Texture& values,
+                          const Target& out) {
+    const Texture* last = &values;
+    const auto once = [&](const LayerFilter& with) {
+      pass.smooth(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
+                  to.between.texture, out.framebuffer);
+      last = &out.texture;
+    };
+    for (int k = 0; k < iterations; ++k) once(filter);
+    if (iterations > 0 && leaves_gaps(filter, frame, to.tiles.nearest())) {
+      LayerFilter closing = filter;
+      closing.close_gaps = true;
+      once(closing);
+    }
+    return last;
+  };
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
-    for (int k = 0; k < params.smoothing_iterations; ++k) {
-      pass.smooth(depth_filter(params), to.tiles, *depth, to.depth.texture, to.between.framebuffer,
-                  to.between.texture, to.depth_smooth.framebuffer);
+    const LayerFilter filter = depth_filter(params);
+    if (filter.kind != Smoothing::curvature_flow) {
+      depth = smooth(filter, params.smoothing_iterations, *depth, to.depth_smooth);
+    } else if (params.smoothing_iterations > 0) {
+      const FlowSchedule schedule =
+          flow_schedule(filter, params.smoothing_iterations, frame, to.tiles.nearest());
+      // What is in the other two is not needed yet.
+      pass.curvature_flow(filter, schedule, to.tiles, *depth, *depth,
+                          {&to.depth_smooth, &to.between, &to.thickness_smooth});
       depth = &to.depth_smooth.texture;
     }
   });
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
-    for (int k = 0; k < params.thickness_iterations; ++k) {
-      pass.smooth(thickness_filter(params), to.tiles, *thickness, to.depth.texture,
-                  to.between.framebuffer, to.between.texture, to.thickness_smooth.framebuffer);
-      thickness = &to.thickness_smooth.texture;
-    }
+    thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
+                       to.thickness_smooth);
   });
   stage("normal", [&] { pass.normal(to.tiles, *depth, to.normal.framebuffer); });
   return {to.tiles, *depth, *thickness, to.normal.texture};

@@ -12,6 +12,7 @@
 
 namespace pbf {
 
+struct FrameBlock;
 struct Surface;
 namespace raster {
 class SurfaceMaps;
@@ -64,6 +65,7 @@ class FluidRenderer {
   Surface draw(const PointsView& positions, const Camera& camera, const RenderParams& params);
   Surface draw_in_glsl(const PointsView& positions,
                        const Camera& camera,
+                       const FrameBlock& frame,
                        const RenderParams& params);
   Surface draw_in_cpp(const PointsView& positions,
                       const Camera& camera,

@@ -43,6 +43,7 @@ class SurfaceMaps {
   Map depth_, thickness_;
   Map depth_between_, thickness_between_;
   Map depth_out_, thickness_out_;
+  Map depth_third_;  // curvature flow needs two stages before the next
   const Map* smooth_depth_ = &depth_;
   const Map* smooth_thickness_ = &thickness_;
   std::vector<std::pair<std::string, double>> milliseconds_;
