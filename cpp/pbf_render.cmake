@@ -3,7 +3,11 @@ include(${PROJECT_SOURCE_DIR}/cmake/pbf_embed_glsl.cmake)
 
 add_library(pbf_render STATIC
   pbf/gl/functions.cpp
+  pbf/gl/egl_turn.cpp
+  pbf/gl/egl_device.cpp
   pbf/gl/egl_display.cpp
+  pbf/gl/egl_cures.cpp
+  pbf/gl/software_threads.cpp
   pbf/gl/egl_context.cpp
   pbf/gl/buffer.cpp
   pbf/gl/texture.cpp

@@ -22,7 +22,7 @@ struct SharedSimulation {
 
   template <class F>
   auto with(F&& f) {
-    const py::gil_scoped_release no_python_in_here;
+    const WithoutGil no_python_in_here;
     const Guard guard(mutex);
     return f(simulation);
   }

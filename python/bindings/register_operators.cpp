@@ -25,14 +25,14 @@ ParticleFields make_fields(const py::object& positions,
                                         .volume = volume,
                                         .corrected = corrected,
                                         .num_threads = num_threads};
-  const py::gil_scoped_release no_python_in_here;
+  const WithoutGil no_python_in_here;
   return {points_view(x), support_radius, options};
 }
 
 /// Runs a member of ParticleFields without the GIL.
 template <class F>
 auto without_gil(F&& f) {
-  const py::gil_scoped_release no_python_in_here;
+  const WithoutGil no_python_in_here;
   return f();
 }
 

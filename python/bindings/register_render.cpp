@@ -1,8 +1,12 @@
+#include "pbf/gl/egl_cures.hpp"
+#include "pbf/gl/egl_device.hpp"
+#include "pbf/gl/egl_turn.hpp"
 #include "pbf/render/fluid_renderer.hpp"
 
 #include "bind_params.hpp"
 #include "numpy_io.hpp"
 #include <mutex>
+#include <unistd.h>
 
 namespace pbf {
 namespace {
@@ -17,14 +21,33 @@ py::array_t<T> pixels_to_numpy(Pixels<T>&& pixels) {
   return py::array_t<T>(std::move(shape), data, owner);
 }
 
+py::dict as_dict(const EglDevice& device) {
+  return py::dict("index"_a = device.index, "name"_a = device.name, "software"_a = device.software,
+                  "cuda"_a = device.cuda, "file"_a = device.file);
+}
+
+py::list egl_device_dicts() {
+  std::vector<EglDevice> devices;
+  {
+    const WithoutGil unlocked;
+    const EglTurn turn;
+    std::vector<std::string> notes;
+    devices = egl_devices(notes);
+  }
+  py::list list;
+  for (const EglDevice& device : devices) list.append(as_dict(device));
+  return list;
+}
+
 /// A FluidRenderer that several Python threads may call, in turn, and that can be closed.
 class Renderer {
  private:
   /// Runs f without the GIL, one thread at a time. The GIL goes first: waiting with it for a thread
-  /// that wants it would never end.
+  /// that wants it would never end. Nor would waiting for a thread that fork() has left behind.
   template <class F>
   auto with_lock(F&& f) {
-    const py::gil_scoped_release unlocked;
+    const WithoutGil unlocked;
+    require_process(process_);
     const std::lock_guard guard(lock_);
     return f();
   }
@@ -41,14 +64,19 @@ class Renderer {
     return *renderer_;
   }
 
+  const int process_ = getpid();
   std::mutex lock_;
   std::unique_ptr<FluidRenderer> renderer_;
+  EglContext::Info info_;  ///< of the context: known without a turn at it, and after close() too
+  std::string description_;
 
  public:
-  Renderer(int width, int height, bool timed) {
-    const py::gil_scoped_release unlocked;  // looking for a device takes a while
-    renderer_ = std::make_unique<FluidRenderer>(width, height);
+  Renderer(int width, int height, const std::string& device, bool timed) {
+    const WithoutGil unlocked;  // looking for a device takes a while
+    renderer_ = std::make_unique<FluidRenderer>(width, height, device);
     renderer_->set_timed(timed);
+    info_ = renderer_->context().info();
+    description_ = renderer_->context().description();
   }
 
   py::array_t<std::uint8_t> render(py::handle positions,
@@ -74,21 +102,24 @@ class Renderer {
     return py::dict("particles"_a = report.particles, "milliseconds"_a = milliseconds);
   }
 
-  py::dict info() {
-    const auto text = with_lock([&] {
-      const auto& info = open().context().info();
-      return std::array{info.renderer, info.vendor, info.version, info.platform};
-    });
-    return py::dict("renderer"_a = text[0], "vendor"_a = text[1], "version"_a = text[2],
-                    "platform"_a = text[3]);
+  [[nodiscard]] py::dict info() const {
+    return py::dict("renderer"_a = info_.renderer, "vendor"_a = info_.vendor,
+                    "version"_a = info_.version, "platform"_a = info_.platform,
+                    "choice"_a = info_.choice);
   }
-  std::string description() {
-    return with_lock([&] { return open().context().description(); });
-  }
+  [[nodiscard]] std::string description() const { return description_; }
+  [[nodiscard]] bool software() const { return info_.software; }
+  [[nodiscard]] bool asked_for() const { return info_.asked_for; }
+  [[nodiscard]] std::vector<std::string> attempts() const { return info_.attempts; }
   void close() {
+    if (getpid() != process_) {
+      static_cast<void>(renderer_.release());  // its names are the parent's
+      return;
+    }
     with_lock([&] { renderer_.reset(); });
   }
   bool closed() {
+    if (getpid() != process_) return renderer_ == nullptr;
     return with_lock([&] { return renderer_ == nullptr; });
   }
 };
@@ -99,14 +130,21 @@ void register_render(py::module_& m) {
   bind_params<Camera>(m, "Where the picture is taken from.");
   bind_params<RenderParams>(m, "How the fluid is drawn. SI units; colors are linear, 0 to 1.");
   py::class_<Renderer>(m, "Renderer", "Draws particles as a fluid, without a screen.")
-      .def(py::init<int, int, bool>(), "width"_a, "height"_a, "timed"_a = false)
+      .def(py::init<int, int, std::string, bool>(), "width"_a, "height"_a, "device"_a = "",
+           "timed"_a = false)
       .def("render", &Renderer::render, "positions"_a, "camera"_a, "params"_a)
       .def("layers", &Renderer::layers, "positions"_a, "camera"_a, "params"_a)
       .def("close", &Renderer::close)
       .def_property_readonly("closed", &Renderer::closed)
       .def_property_readonly("description", &Renderer::description)
       .def_property_readonly("info", &Renderer::info)
+      .def_property_readonly("software", &Renderer::software)
+      .def_property_readonly("asked_for", &Renderer::asked_for)
+      .def_property_readonly("attempts", &Renderer::attempts)
       .def_property_readonly("report", &Renderer::report);
+  m.def("egl_devices", &egl_device_dicts, "Devices that EGL lists.");
+  m.def("egl_cures", &egl_cures, "What to do where rendering, or a GPU for it, is missing.");
+  m.def("visible_gpus", &visible_gpus, "Device files of GPUs, usable or not.");
 }
 
 }  // namespace pbf

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import os
 import platform
+import warnings
 from dataclasses import asdict, dataclass
 from importlib import metadata
 from typing import Any
 
 from pbfluids import _core
 from pbfluids._version import __version__
-from pbfluids.errors import FluidError
+from pbfluids.errors import FluidError, SoftwareRendering
 from pbfluids.machine import available_memory
-from pbfluids.render import Renderer
+from pbfluids.render import Camera, Renderer
 
 __all__ = ["Diagnosis", "doctor", "examine"]
 
@@ -40,6 +41,8 @@ class Diagnosis:
     threads: int
     memory_available: int
     can_render: bool
+    egl_devices: list[dict[str, Any]]
+    visible_gpus: list[str]
     renderer: dict[str, Any]
     renderer_error: str | None
     extras: dict[str, Extra]
@@ -53,11 +56,13 @@ class Diagnosis:
         facts = {
             "pbfluids": self.pbfluids,
             "python": f"{self.python} on {self.platform}",
-            **{key.replace("_", " "): value for key, value in self.build.items()},
+            **{key.replace("_", " "): _words(value) for key, value in self.build.items()},
             "cores": f"{self.cores}, {self.threads} threads in use",
             "memory": f"{self.memory_available / 2**30:.1f} GiB available",
+            "EGL devices": _words(device["name"] for device in self.egl_devices),
+            "GPUs": _words(self.visible_gpus),
             "rendering": "yes" if self.can_render else "NO",
-            **self.renderer,
+            **{key: _words(value) for key, value in self.renderer.items()},
         }
         lines = [f"{key:16} {value}" for key, value in facts.items()]
         if self.renderer_error is not None:
@@ -87,11 +92,13 @@ def examine() -> Diagnosis:
         pbfluids=__version__,
         python=platform.python_version(),
         platform=platform.platform(),
-        build=_core.build_info(),
+        build={**_core.build_info(), "instruction_sets": _core.instruction_sets()},
         cores=len(os.sched_getaffinity(0)),
         threads=_core.usable_threads(0),
         memory_available=available_memory(),
         can_render=error is None,
+        egl_devices=_egl_devices(),
+        visible_gpus=_core.visible_gpus(),
         renderer=renderer,
         renderer_error=error,
         extras={name: _extra(name, packages) for name, packages in _EXTRAS.items()},
@@ -100,10 +107,26 @@ def examine() -> Diagnosis:
 
 def _renderer() -> tuple[dict[str, Any], str | None]:
     try:
-        with Renderer(16, 16) as renderer:
-            return dict(renderer.info), None
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SoftwareRendering)  # the listing shows it
+            with Renderer(16, 16) as renderer:
+                renderer.render([[0, 0, 0]], Camera())
+                return {**renderer.info, "software": renderer.software}, None
     except FluidError as error:
         return {}, str(error)
+
+
+def _egl_devices() -> list[dict[str, Any]]:
+    try:
+        return _core.egl_devices()
+    except FluidError:  # no libEGL: what `_renderer` says
+        return []
+
+
+def _words(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return value if isinstance(value, str) else ", ".join(value) or "none"
 
 
 def _extra(name: str, packages: list[str]) -> Extra:

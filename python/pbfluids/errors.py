@@ -14,6 +14,7 @@ __all__ = [
     "RendererUnavailable",
     "SceneError",
     "SimulationFailed",
+    "SoftwareRendering",
     "UnstableTimeStep",
     "WrongType",
 ]
@@ -45,6 +46,10 @@ class UnstableTimeStep(RuntimeWarning):
 
 class RendererUnavailable(FluidError, OSError):
     """No OpenGL context can be had here; the message lists every attempt and the cure."""
+
+
+class SoftwareRendering(UserWarning):
+    """A warning: the processor draws although there is a GPU, and nobody asked for that."""
 
 
 class GlError(FluidError, RuntimeError):

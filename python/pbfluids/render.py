@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from typing import TYPE_CHECKING, TypedDict, cast
 
 from pbfluids import _core
 from pbfluids._core import Camera, RenderParams
+from pbfluids.errors import SoftwareRendering
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -39,16 +42,26 @@ class Renderer:
     ----------
     width, height : int
         Size of the pictures [pixels], at least 1, at most what the driver draws.
+    device : int or str, optional
+        What to draw on: the index of an EGL device as ``pbfluids doctor`` lists them, "hardware",
+        "software", "cuda:N" for the GPU that CUDA calls N, or "surfaceless". If not given, what the
+        environment variable ``PBF_EGL_DEVICE`` says in the same words; else the first that works
+        of: GPUs in the order of CUDA, other hardware, software, Mesa's surfaceless platform.
     timed : bool, optional
         Measure each pass (see :attr:`report`). Waiting for each costs a little.
 
     Raises
     ------
     InvalidParameter
-        If the size cannot be drawn.
+        If the size cannot be drawn, or ``device`` means nothing.
     RendererUnavailable
-        If there is no OpenGL 3.3 here; the message lists every attempt and the cure. The
-        environment variable ``PBF_EGL_DEVICE`` asks for one EGL device by its index.
+        If there is no OpenGL 3.3 here, or not on the device asked for; the message lists every
+        attempt and the cure.
+
+    Warns
+    -----
+    SoftwareRendering
+        Once, if the processor draws although there is a GPU, and nobody asked for that.
 
     Examples
     --------
@@ -57,9 +70,17 @@ class Renderer:
 
     """
 
-    def __init__(self, width: int, height: int, *, timed: bool = False) -> None:
-        self._core = _core.Renderer(width, height, timed)
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        *,
+        device: int | str | None = None,
+        timed: bool = False,
+    ) -> None:
+        self._core = _core.Renderer(width, height, "" if device is None else str(device), timed)
         self._size = (width, height)
+        _say_if_software_by_accident(self._core)
 
     def render(
         self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
@@ -136,8 +157,13 @@ class Renderer:
         return self._core.description
 
     @property
+    def software(self) -> bool:
+        """Whether the processor draws, and competes with what else runs there."""
+        return self._core.software
+
+    @property
     def info(self) -> dict[str, str]:
-        """Renderer, vendor, version and platform as the driver names them."""
+        """Renderer, vendor and version as the driver names them, platform and why it was chosen."""
         return self._core.info
 
     @property
@@ -159,3 +185,26 @@ class Renderer:
     def __repr__(self) -> str:
         state = "closed" if self.closed else self.description
         return f"Renderer({self.width}, {self.height}: {state})"
+
+
+def _say_if_software_by_accident(core: _core.Renderer) -> None:
+    """Warn, once in a process, that a GPU is there and not used."""
+    global _said  # noqa: PLW0603
+    asked_for = core.asked_for or "LIBGL_ALWAYS_SOFTWARE" in os.environ
+    gpus = _core.visible_gpus()
+    if _said or asked_for or not core.software or not gpus:
+        return
+    _said = True
+    tried = [attempt for attempt in core.attempts if "(software)" not in attempt]
+    lines = [
+        f"{core.info['renderer']} draws on the processor, although there is a GPU "
+        f"({', '.join(gpus)}). Tried before:",
+        *("  " + attempt for attempt in tried or ["nothing: EGL does not list the GPU"]),
+        "Cure, whichever fits:",
+        *("  " + cure for cure in _core.egl_cures()[1:]),
+        "  to draw on the processor and hear nothing of it: PBF_EGL_DEVICE=software",
+    ]
+    warnings.warn("\n".join(lines), SoftwareRendering, stacklevel=3)
+
+
+_said = False

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import platform
+import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from pbfluids import _core, video
+from pbfluids import _core, pipeline, video
 from pbfluids._version import __version__
 from pbfluids.errors import InvalidParameter
 from pbfluids.render import Renderer
@@ -25,7 +28,20 @@ __all__ = ["draw", "simulate"]
 _RECORD_INTERVAL = 5.0
 
 Progress = Callable[[int, int, str], None]  # frames done, frames in all, a word on the last
-_Draw = Callable[[int, npt.NDArray[np.float32]], None]
+
+
+@dataclass
+class _Work:
+    """A frame on its way through the stages."""
+
+    index: int
+    positions: npt.NDArray[np.float32]
+    frame: Frame | None = None
+    image: Any = None
+
+
+_Stage = Callable[[_Work], _Work]
+_Cores = AbstractContextManager[Any]
 
 
 def simulate(
@@ -39,6 +55,9 @@ def simulate(
     progress: Progress | None = None,
 ) -> RunDirectory:
     """Simulate a scene and write particles and pictures of each frame.
+
+    A frame is simulated while the one before it is drawn and those before that are written; the
+    files are the same as if that happened in turn.
 
     Parameters
     ----------
@@ -74,13 +93,15 @@ def simulate(
     total = scene.frame_count if count is None else count
     frames = scene.frames(total)
     with ExitStack() as stack:
-        draw_frame = None
+        stages: list[_Stage] = [partial(_write_particles, run)]
+        cores: _Cores = nullcontext()
         if render:
-            draw_frame = stack.enter_context(_pictures(run, scene, size, video_file))
+            drawing, cores = stack.enter_context(_pictures(run, scene, size, video_file))
+            stages += drawing
         run.prepare(particles=True)
         record = _new_record(scene, size if render else None)
         try:
-            _write_frames(run, record, frames, total, draw_frame, progress)
+            pipeline.run(_in_turn(frames, cores), stages, _Notes(run, record, total, progress))
             record["status"] = "complete"
         except BaseException as error:
             interrupted = isinstance(error, KeyboardInterrupt)
@@ -131,61 +152,94 @@ def draw(
     if not indices:
         raise InvalidParameter(f"{run.path}: holds no frames of particles")
     width, height = size or record.get("size") or (1280, 720)
-    with _pictures(run, scene, (width, height), video_file) as draw_frame:
+    with _pictures(run, scene, (width, height), video_file) as (stages, _):
         run.prepare(particles=False)
-        for done, index in enumerate(indices, start=1):
-            draw_frame(index, run.read_positions(index))
+
+        def finished(work: _Work) -> None:
             if progress is not None:
-                progress(done, len(indices), "")
+                progress(indices.index(work.index) + 1, len(indices), "")
+
+        frames = (_Work(index, run.read_positions(index)) for index in indices)
+        pipeline.run(frames, stages, finished)
     return run
 
 
 @contextmanager
 def _pictures(
     run: RunDirectory, scene: Scene, size: tuple[int, int], video_file: str | Path | None
-) -> Iterator[_Draw]:
-    """Give a function that draws a frame into the directory and the video."""
+) -> Iterator[tuple[list[_Stage], _Cores]]:
+    """Give the stages that draw into the directory and the video, and what simulating waits for.
+
+    Drawn on the processor, a picture takes all cores, as a time step does: they take turns. What
+    compresses and writes takes one core each, and fills the gaps that the others leave.
+    """
     width, height = size
     camera, params = scene.camera, scene.render_params
     with ExitStack() as stack:
         if video_file is not None:
             video.check(video_file, width, height)
         renderer = stack.enter_context(Renderer(width, height))
-        movie = None
+        cores: _Cores = threading.Lock() if renderer.software else nullcontext()
+
+        def draw_frame(work: _Work) -> _Work:
+            with cores:
+                work.image = renderer.render(work.positions, camera, params)
+            return work
+
+        def write_image(work: _Work) -> _Work:
+            run.write_image(work.index, work.image)
+            return work
+
+        stages: list[_Stage] = [draw_frame, write_image]
         if video_file is not None:
             Path(video_file).parent.mkdir(parents=True, exist_ok=True)
             movie = stack.enter_context(
                 video.VideoWriter(video_file, width, height, scene.frame_rate)
             )
 
-        def draw_frame(index: int, positions: npt.NDArray[np.float32]) -> None:
-            image = renderer.render(positions, camera, params)
-            run.write_image(index, image)
-            if movie is not None:
-                movie.write(image)
+            def write_movie(work: _Work) -> _Work:
+                movie.write(work.image)
+                return work
 
-        yield draw_frame
+            stages.append(write_movie)
+        yield stages, cores
 
 
-def _write_frames(
-    run: RunDirectory,
-    record: dict[str, Any],
-    frames: Iterator[Frame],
-    total: int,
-    draw_frame: _Draw | None,
-    progress: Progress | None,
-) -> None:
-    last_record = -_RECORD_INTERVAL
-    for frame in frames:
-        run.write_particles(frame)
-        if draw_frame is not None:
-            draw_frame(frame.index, frame.positions)
-        record["frames"].append(_frame_record(frame))
-        if time.monotonic() - last_record >= _RECORD_INTERVAL:
-            run.write_record(record)
-            last_record = time.monotonic()
-        if progress is not None:
-            progress(frame.index + 1, total, _note(frame))
+def _in_turn(frames: Iterator[Frame], cores: _Cores) -> Iterator[_Work]:
+    """Give the frames; simulating them waits for the cores."""
+    while True:
+        with cores:
+            frame = next(frames, None)
+        if frame is None:
+            return
+        yield _Work(frame.index, frame.positions, frame)
+
+
+def _write_particles(run: RunDirectory, work: _Work) -> _Work:
+    assert work.frame is not None
+    run.write_particles(work.frame)
+    return work
+
+
+class _Notes:
+    """Notes each frame that is written, and tells whoever wants to know."""
+
+    def __init__(
+        self, run: RunDirectory, record: dict[str, Any], total: int, progress: Progress | None
+    ) -> None:
+        self._run, self._record = run, record
+        self._total, self._progress = total, progress
+        self._written = -_RECORD_INTERVAL
+
+    def __call__(self, work: _Work) -> None:
+        frame = work.frame
+        assert frame is not None
+        self._record["frames"].append(_frame_record(frame))
+        if time.monotonic() - self._written >= _RECORD_INTERVAL:
+            self._run.write_record(self._record)
+            self._written = time.monotonic()
+        if self._progress is not None:
+            self._progress(frame.index + 1, self._total, _note(frame))
 
 
 def _new_record(scene: Scene, size: tuple[int, int] | None) -> dict[str, Any]:

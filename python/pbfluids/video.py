@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pbfluids import files
+from pbfluids import _core, files
 from pbfluids.errors import InvalidParameter, MissingExtra
 
 __all__ = ["VideoWriter", "check"]
@@ -96,6 +96,7 @@ class VideoWriter:
         context = self._stream.codec_context
         context.color_primaries = context.color_trc = context.colorspace = _BT709
         context.color_range = _LIMITED_RANGE
+        context.thread_count = _core.usable_threads(0)  # x264 would take half as many again
 
     def write(self, image: npt.NDArray[np.uint8]) -> None:
         """Append an image.

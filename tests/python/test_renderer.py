@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import shutil
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support.process import run_python
 
 import pbfluids as pbf
 from pbfluids import errors
@@ -33,19 +31,6 @@ def rays(camera, width=160, height=120):
     x = (2 * (np.arange(width) + 0.5) / width - 1) * half * width / height
     y = -(2 * (np.arange(height) + 0.5) / height - 1) * half
     return np.meshgrid(x, y)
-
-
-def run_python(code, **environment):
-    """Run code in a new interpreter that knows this package; give the finished process."""
-    path = os.pathsep.join(sys.path)
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, "PYTHONPATH": path, **environment},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
 
 
 @pytest.mark.parametrize("fov", [20, 60, 100])
@@ -266,82 +251,6 @@ def test_threads_may_share_a_renderer_or_have_their_own(renderer):
         thread.join()
     assert len(images) == 6
     assert all(np.array_equal(image, expected) for image in images)
-
-
-@pytest.mark.slow
-def test_thousands_of_renderers_leave_nothing_behind():
-    code = """
-import os, pbfluids as pbf
-def held():
-    pages = int(open("/proc/self/statm").read().split()[1])
-    return pages * 4096 / 1e6, len(os.listdir("/proc/self/fd"))
-def make(n):
-    for _ in range(n):
-        with pbf.Renderer(16, 16) as r:
-            r.render([[0, 0, 0]], pbf.Camera())
-make(300)
-before = held()
-make(2000)
-print(held()[0] - before[0], held()[1] - before[1])
-"""
-    done = run_python(code)
-    assert done.returncode == 0, done.stderr
-    grown, files = (float(word) for word in done.stdout.split())
-    assert grown < 20  # MB
-    assert files <= 0
-
-
-@pytest.mark.parametrize("what", ["render", "make", "nothing"])
-def test_after_fork_the_child_gets_an_error_and_the_parent_goes_on(what):
-    code = f"""
-import os, sys, pbfluids as pbf
-renderer = pbf.Renderer(16, 16)
-pid = os.fork()
-if pid == 0:
-    try:
-        if "{what}" == "render":
-            renderer.render([[0, 0, 0]], pbf.Camera())
-        elif "{what}" == "make":
-            pbf.Renderer(16, 16)
-        else:
-            renderer.close()
-            os._exit(3)
-    except pbf.FluidError as error:
-        os._exit(3 if "spawn" in str(error) else 4)
-    os._exit(5)
-assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 3
-renderer.render([[0, 0, 0]], pbf.Camera())
-"""
-    done = run_python(code)
-    assert done.returncode == 0, done.stderr
-
-
-def test_an_interpreter_may_end_with_an_open_renderer():
-    done = run_python("import pbfluids as pbf; r = pbf.Renderer(16, 16)")
-    assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_without_a_driver_the_error_lists_the_attempts_and_the_cure():
-    code = """
-import pbfluids as pbf
-try:
-    pbf.Renderer(16, 16)
-except pbf.errors.RendererUnavailable as error:
-    print(error)
-"""
-    done = run_python(code, __EGL_VENDOR_LIBRARY_DIRS="/nowhere", __EGL_VENDOR_LIBRARY_FILENAMES="")
-    assert "tried in this order:\n  EGL devices: " in done.stdout
-    assert "surfaceless" in done.stdout
-    assert "apt-get install libegl1 libgl1-mesa-dri" in done.stdout
-    assert "NVIDIA_DRIVER_CAPABILITIES=all" in done.stdout
-
-
-def test_a_device_that_is_not_there_is_refused_with_those_that_are():
-    code = "import pbfluids as pbf; pbf.Renderer(16, 16)"
-    done = run_python(code, PBF_EGL_DEVICE="99")
-    assert "PBF_EGL_DEVICE = 99" in done.stderr
-    assert "EGL device 0" in done.stderr
-    assert run_python(code, PBF_EGL_DEVICE="0").returncode == 0
 
 
 def test_a_broken_shader_is_reported_with_file_and_line(tmp_path, monkeypatch):

@@ -1,37 +1,19 @@
 #include "pbf/gl/egl_context.hpp"
 
 #include "pbf/core/error.hpp"
+#include "pbf/gl/egl_cures.hpp"
 #include "pbf/gl/egl_display.hpp"
+#include "pbf/gl/egl_turn.hpp"
 #include "pbf/gl/functions.hpp"
+#include "pbf/gl/software_threads.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
-#include <mutex>
 #include <unistd.h>
-#include <vector>
 
 namespace pbf {
 namespace {
-
-// Creating contexts, and the tables filled on the way, is for one thread at a time.
-std::mutex& creation_lock() {
-  static std::mutex lock;
-  return lock;
-}
-
-constexpr const char* kAfterFork =
-    "after fork() the graphics driver's threads are gone and it would wait for them for ever; "
-    "start "
-    "worker processes with the \"spawn\" method, or make no renderer before forking";
-
-void forbid_egl_after_fork() {
-  static const int first_process = getpid();
-  if (getpid() != first_process) {
-    throw RendererUnavailable("EGL was started in process " + std::to_string(first_process) +
-                              ", this is its child " + std::to_string(getpid()) + ": " +
-                              kAfterFork);
-  }
-}
 
 struct Version {
   EGLint major, minor;
@@ -90,13 +72,24 @@ std::string gl_string(GLenum name) {
 std::string failure(const std::vector<std::string>& attempts) {
   std::string text = "no OpenGL context could be made; tried in this order:";
   for (const std::string& attempt : attempts) text += "\n  " + attempt;
-  return text +
-         "\nCure, whichever fits:"
-         "\n  software rendering: apt-get install libegl1 libgl1-mesa-dri"
-         "\n  NVIDIA in a container: docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=all"
-         "\n  another GPU: let the user open /dev/dri/renderD* (usermod -aG render,video $USER)"
-         "\n  conda: its libstdc++ may be too old for the system's driver "
-         "(conda install -c conda-forge libstdcxx-ng)";
+  text += "\nCure, whichever fits:";
+  for (const std::string& cure : egl_cures()) text += "\n  " + cure;
+  return text;
+}
+
+/// Why a platform was taken, the first of its kind that works.
+std::string reason(const DeviceWish& wish, const EglPlatform& platform, bool hardware_failed) {
+  if (!wish.source.empty()) return "asked for by " + wish.source;
+  if (platform.device.handle == nullptr) return "no EGL device works";
+  if (platform.device.cuda) return "the first GPU of CUDA that works";
+  if (!platform.device.software) return "the first hardware device that works";
+  return hardware_failed ? "no hardware device works" : "EGL lists no hardware device";
+}
+
+bool is_software(const std::string& renderer) {
+  constexpr std::array names{"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"};
+  return std::any_of(names.begin(), names.end(),
+                     [&](const char* name) { return renderer.find(name) != std::string::npos; });
 }
 
 /// OpenGL rather than OpenGL ES is meant while it lives; the choice is the thread's.
@@ -115,25 +108,29 @@ class OpenGlApi {
 
 }  // namespace
 
-EglContext::EglContext() : process_(getpid()) {
-  const std::lock_guard lock(creation_lock());
-  forbid_egl_after_fork();
-  create();
+EglContext::EglContext(const std::string& device) : process_(getpid()) {
+  const EglTurn turn;
+  create(device);
   try {
     const Current current(*this);
     load_gl_functions();
     ask_driver();
   } catch (...) {
     eglDestroyContext(display_, context_);
+    if (surface_ != nullptr) eglDestroySurface(display_, surface_);
     throw;
   }
 }
 
-void EglContext::create() {
-  std::vector<std::string> attempts;
-  for (const EglPlatform& platform : egl_platforms(attempts)) {
+void EglContext::create(const std::string& device) {
+  const SoftwareThreads threads;
+  const DeviceWish wish = device_wish(device);
+  bool hardware_failed = false;
+  std::vector<std::string>& attempts = info_.attempts;
+  for (const EglPlatform& platform : egl_platforms(wish, attempts)) {
     const auto note = [&](const char* what) {
       attempts.push_back(platform.name + ": " + what + ": " + egl_error_text());
+      hardware_failed |= platform.device.handle != nullptr && !platform.device.software;
     };
     display_ = open_display(platform);
     if (display_ == nullptr) {
@@ -162,8 +159,16 @@ void EglContext::create() {
     if (needs_surface) {
       const std::array<EGLint, 5> size{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
       surface_ = eglCreatePbufferSurface(display_, config, size.data());
+      if (surface_ == nullptr) {
+        note("no surface for off-screen drawing");
+        eglDestroyContext(display_, context_);
+        continue;
+      }
     }
     info_.platform = platform.name;
+    info_.choice = reason(wish, platform, hardware_failed);
+    info_.asked_for = !wish.source.empty();
+    info_.software = platform.device.software;
     return;
   }
   throw RendererUnavailable(failure(attempts));
@@ -173,6 +178,7 @@ void EglContext::ask_driver() {
   info_.renderer = gl_string(GL_RENDERER);
   info_.vendor = gl_string(GL_VENDOR);
   info_.version = gl_string(GL_VERSION);
+  info_.software = info_.software || is_software(info_.renderer);
   glGetIntegerv(GL_MAJOR_VERSION, &info_.major);
   glGetIntegerv(GL_MINOR_VERSION, &info_.minor);
 #ifndef NDEBUG
@@ -185,12 +191,10 @@ void EglContext::ask_driver() {
 }
 
 EglContext::~EglContext() {
-  if (!is_usable_here()) return;
+  if (getpid() != process_) return;
   eglDestroyContext(display_, context_);
   if (surface_ != nullptr) eglDestroySurface(display_, surface_);
 }
-
-bool EglContext::is_usable_here() const { return getpid() == process_; }
 
 bool EglContext::has_version(int major, int minor) const {
   return info_.major > major || (info_.major == major && info_.minor >= minor);
@@ -202,10 +206,7 @@ std::string EglContext::description() const {
 }
 
 EglContext::Current::Current(const EglContext& context) : own_display_(context.display_) {
-  if (!context.is_usable_here()) {
-    throw GlError("this renderer belongs to process " + std::to_string(context.process_) +
-                  ", this is process " + std::to_string(getpid()) + ": " + kAfterFork);
-  }
+  require_process(context.process_);
   api_ = eglQueryAPI();
   eglBindAPI(EGL_OPENGL_API);
   display_ = eglGetCurrentDisplay();

@@ -1,21 +1,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace pbf {
 
-/// A headless OpenGL core context, 3.3 or newer. Platforms are tried in order: the EGL devices,
-/// hardware first, then the surfaceless platform; the environment variable PBF_EGL_DEVICE=<index>
-/// asks for one device. EGL displays are opened once per process and stay: eglTerminate would take
-/// them from every other context too.
+/// A headless OpenGL core context, 3.3 or newer. Platforms are tried in order: EGL devices, those
+/// that CUDA uses first, other hardware, software, then Mesa's surfaceless platform; see
+/// device_wish() for how to ask for one of them. eglTerminate is never called: it would take the
+/// display from every other context too.
 ///
 /// The context is current only while a Current lives, so any thread may use it, one at a time.
 /// After fork() the child can use neither it nor EGL, since the driver's threads stayed in the
 /// parent: every call says so instead of hanging.
 class EglContext {
  public:
-  /// Throws RendererUnavailable with every attempt, what it failed with and the cure.
-  EglContext();
+  /// @param device  as for device_wish(); empty leaves the choice open
+  /// Throws InvalidParameter if it means nothing, RendererUnavailable with every attempt, what it
+  /// failed with and the cure.
+  explicit EglContext(const std::string& device = "");
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -37,8 +40,12 @@ class EglContext {
 
   struct Info {
     std::string platform;  ///< "EGL device 0 (software)", "surfaceless"
+    std::string choice;    ///< why this platform: "the first hardware device that works"
     std::string renderer, vendor, version;
     int major = 0, minor = 0;
+    bool software = false;              ///< the processor draws
+    bool asked_for = false;             ///< the user chose the device
+    std::vector<std::string> attempts;  ///< platforms that failed before, and why
   };
   [[nodiscard]] const Info& info() const { return info_; }
   /// "llvmpipe (…), OpenGL 4.5, EGL device 0 (software)"
@@ -47,9 +54,8 @@ class EglContext {
   [[nodiscard]] bool has_version(int major, int minor) const;
 
  private:
-  void create();
+  void create(const std::string& device);
   void ask_driver();
-  [[nodiscard]] bool is_usable_here() const;
 
   void* display_ = nullptr;
   void* surface_ = nullptr;  ///< 1x1, only where contexts cannot do without

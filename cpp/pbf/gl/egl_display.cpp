@@ -3,74 +3,9 @@
 #include "pbf/core/error.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
-#include <cstring>
-#include <map>
-#include <optional>
 #include <string_view>
 
 namespace pbf {
-namespace {
-
-struct Device {
-  EGLDevice handle;
-  int index;
-  bool software;
-};
-
-std::string text_or(const char* text, const char* otherwise) {
-  return text != nullptr && *text != '\0' ? text : otherwise;
-}
-
-/// All of them: Mesa leaves the software device out if asked for fewer than there are.
-std::vector<Device> all_devices(std::vector<std::string>& notes) {
-  EGLint count = 0;
-  if (eglQueryDevicesEXT == nullptr || eglQueryDeviceStringEXT == nullptr) {
-    notes.emplace_back("EGL devices: this EGL cannot list them (no EGL_EXT_device_enumeration)");
-    return {};
-  }
-  if (eglQueryDevicesEXT(0, nullptr, &count) == 0 || count < 1) {
-    notes.push_back("EGL devices: none found (" + egl_error_text() + ")");
-    return {};
-  }
-  std::vector<EGLDevice> handles(static_cast<std::size_t>(count));
-  eglQueryDevicesEXT(count, handles.data(), &count);
-  std::vector<Device> devices;
-  for (int k = 0; k < count; ++k) {
-    const char* extensions = eglQueryDeviceStringEXT(handles[k], EGL_EXTENSIONS);
-    devices.push_back({handles[k], k, has_extension(extensions, "EGL_MESA_device_software")});
-  }
-  return devices;
-}
-
-std::string device_name(const Device& device) {
-  std::string name = "EGL device " + std::to_string(device.index);
-  if (device.software) return name + " (software)";
-  const char* extensions = eglQueryDeviceStringEXT(device.handle, EGL_EXTENSIONS);
-  const char* file = has_extension(extensions, "EGL_EXT_device_drm")
-                         ? eglQueryDeviceStringEXT(device.handle, EGL_DRM_DEVICE_FILE_EXT)
-                         : nullptr;
-  return name + " (" + text_or(file, text_or(extensions, "no extensions").c_str()) + ")";
-}
-
-std::optional<int> asked_device(const std::vector<Device>& devices) {
-  const char* text = std::getenv("PBF_EGL_DEVICE");
-  if (text == nullptr || *text == '\0') return std::nullopt;
-  int index = -1;
-  const auto [end, error] = std::from_chars(text, text + std::strlen(text), index);
-  if (error != std::errc() || *end != '\0' || index < 0 ||
-      index >= static_cast<int>(devices.size())) {
-    std::string known;
-    for (const Device& device : devices) known += "\n  " + device_name(device);
-    throw RendererUnavailable(std::string("PBF_EGL_DEVICE = ") + text +
-                              ": must be the index of an EGL device; there are " +
-                              std::to_string(devices.size()) + known);
-  }
-  return index;
-}
-
-}  // namespace
 
 bool has_extension(const char* list, const char* name) {
   std::string_view rest = list != nullptr ? list : "";
@@ -82,37 +17,37 @@ bool has_extension(const char* list, const char* name) {
   return false;
 }
 
-std::vector<EglPlatform> egl_platforms(std::vector<std::string>& notes) {
-  load_egl_functions();
-  std::vector<Device> devices = all_devices(notes);
-  const std::optional<int> asked = asked_device(devices);
-  std::stable_partition(devices.begin(), devices.end(),
-                        [](const Device& d) { return !d.software; });
+std::vector<EglPlatform> egl_platforms(const DeviceWish& wish, std::vector<std::string>& notes) {
+  using Kind = DeviceWish::Kind;
+  const std::vector<EglDevice> devices = egl_devices(notes);
   std::vector<EglPlatform> platforms;
-  for (const Device& device : devices) {
-    if (!asked || device.index == *asked) {
-      platforms.push_back({device_name(device), EGL_PLATFORM_DEVICE_EXT, device.handle});
-    }
+  for (const EglDevice& device : ranked(devices, wish)) {
+    platforms.push_back({device.name, EGL_PLATFORM_DEVICE_EXT, device});
   }
-  if (asked) return platforms;
-  const char* client = eglQueryString(nullptr, EGL_EXTENSIONS);
-  if (has_extension(client, "EGL_MESA_platform_surfaceless")) {
-    platforms.push_back({"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, nullptr});
-  } else {
-    notes.emplace_back("surfaceless: this EGL has no EGL_MESA_platform_surfaceless");
+  if (wish.kind == Kind::any || wish.kind == Kind::surfaceless) {
+    const char* client = eglQueryString(nullptr, EGL_EXTENSIONS);
+    if (has_extension(client, "EGL_MESA_platform_surfaceless")) {
+      platforms.push_back({"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, {}});
+    } else {
+      notes.emplace_back("surfaceless: this EGL has no EGL_MESA_platform_surfaceless");
+    }
+  } else if (platforms.empty()) {
+    std::string known;
+    for (const EglDevice& device : devices) known += "\n  " + device.name;
+    for (const std::string& note : notes) known += "\n  " + note;
+    throw RendererUnavailable(wish.source + ": there is no such device; there are " +
+                              std::to_string(devices.size()) + ":" + known);
   }
   return platforms;
 }
 
 EGLDisplay open_display(const EglPlatform& platform) {
-  static std::map<void*, EGLDisplay> opened;
-  if (const auto found = opened.find(platform.native); found != opened.end()) return found->second;
   if (eglGetPlatformDisplayEXT == nullptr) return nullptr;
-  EGLDisplay display = eglGetPlatformDisplayEXT(platform.platform, platform.native, nullptr);
+  EGLDisplay display = eglGetPlatformDisplayEXT(platform.platform, platform.device.handle, nullptr);
+  // Each time: it does nothing unless somebody else has terminated the display in between.
   EGLint major = 0;
   EGLint minor = 0;
   if (display == nullptr || eglInitialize(display, &major, &minor) == 0) return nullptr;
-  opened[platform.native] = display;
   return display;
 }
 
@@ -123,8 +58,9 @@ std::string egl_error_text() {
     case 0x3001:
       return "EGL_NOT_INITIALIZED: no driver for it could be started";
     case 0x3002:
-      return "EGL_BAD_ACCESS: the context is current in another thread, or the device "
-             "file may not be opened";
+      return "EGL_BAD_ACCESS: the context is current in another thread, this thread has one of "
+             "GLX, "
+             "or the device file may not be opened";
     case 0x3003:
       return "EGL_BAD_ALLOC: out of memory or of contexts";
     case 0x3004:

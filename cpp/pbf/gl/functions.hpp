@@ -11,6 +11,7 @@ namespace pbf {
 
 using EGLBoolean = unsigned int;
 using EGLint = std::int32_t;
+using EGLAttrib = std::intptr_t;
 using EGLenum = unsigned int;
 using EGLDisplay = void*;
 using EGLContext = void*;
@@ -55,6 +56,8 @@ inline constexpr EGLint EGL_CONTEXT_OPENGL_PROFILE_MASK = 0x30FD;
 inline constexpr EGLint EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT = 0x1;
 inline constexpr EGLint EGL_CONTEXT_OPENGL_DEBUG = 0x31B0;
 inline constexpr EGLint EGL_DRM_DEVICE_FILE_EXT = 0x3233;
+inline constexpr EGLint EGL_CUDA_DEVICE_NV = 0x323A;
+inline constexpr EGLint EGL_DRM_RENDER_NODE_FILE_EXT = 0x3377;
 
 inline constexpr GLenum GL_NO_ERROR = 0;
 inline constexpr GLenum GL_ZERO = 0;
@@ -127,7 +130,7 @@ inline constexpr GLenum GL_DEBUG_OUTPUT = 0x92E0;
 #undef PBF_DECLARE
 
 /// Opens libEGL at the first call. Throws RendererUnavailable if there is none. Not thread-safe:
-/// the caller holds the lock of egl_context.cpp.
+/// the caller has an EglTurn.
 void load_egl_functions();
 
 /// Looks up the OpenGL calls at the first call; needs the EGL calls. Throws RendererUnavailable for

@@ -33,6 +33,9 @@ PBF_EGL_OPTIONAL(EGLDisplay,
                  eglGetPlatformDisplayEXT,
                  (EGLenum platform, void* native, const EGLint* attributes))
 PBF_EGL_OPTIONAL(EGLBoolean, eglQueryDevicesEXT, (EGLint size, EGLDevice* devices, EGLint* count))
+PBF_EGL_OPTIONAL(EGLBoolean,
+                 eglQueryDeviceAttribEXT,
+                 (EGLDevice device, EGLint name, EGLAttrib* value))
 PBF_EGL_OPTIONAL(const char*, eglQueryDeviceStringEXT, (EGLDevice device, EGLint name))
 #endif
 

@@ -56,11 +56,6 @@ void require_no_gl_error() {
   }
 }
 
-bool is_software(const EglContext::Info& driver) {
-  return driver.renderer.find("llvmpipe") != std::string::npos ||
-         driver.renderer.find("softpipe") != std::string::npos;
-}
-
 void upload(const raster::Map& map, const Texture& texture) {
   texture.upload(map.row(0), static_cast<GLint>(map.pitch()));
 }
@@ -108,12 +103,17 @@ struct FluidRenderer::Targets {
   int width, height;
 };
 
-FluidRenderer::FluidRenderer(int width, int height, SurfacePasses surface)
-    : width_(checked_side(width, "width")), height_(checked_side(height, "height")) {
+FluidRenderer::FluidRenderer(int width,
+                             int height,
+                             const std::string& device,
+                             SurfacePasses surface)
+    : width_(checked_side(width, "width")),
+      height_(checked_side(height, "height")),
+      context_(device) {
   const auto current = context_.make_current();
   require_drawable(width, height, 1);
   auto passes = std::make_unique<Passes>(context_.has_version(4, 0));
-  const bool outrun = is_software(context_.info());
+  const bool outrun = context_.info().software;
   in_cpp_ = surface == SurfacePasses::cpp || (surface == SurfacePasses::automatic && outrun);
   prepare_targets(1);
   require_no_gl_error();

@@ -39,8 +39,12 @@ struct RenderReport {
 /// a process forked from the one that made it, every call throws GlError.
 class FluidRenderer {
  public:
+  /// @param device  which to draw on, as for device_wish(); empty leaves the choice open
   /// Throws InvalidParameter for a size the driver cannot draw, RendererUnavailable without OpenGL.
-  FluidRenderer(int width, int height, SurfacePasses passes = SurfacePasses::automatic);
+  FluidRenderer(int width,
+                int height,
+                const std::string& device = "",
+                SurfacePasses passes = SurfacePasses::automatic);
   ~FluidRenderer();
   FluidRenderer(const FluidRenderer&) = delete;
   FluidRenderer& operator=(const FluidRenderer&) = delete;

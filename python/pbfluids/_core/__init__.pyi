@@ -22,9 +22,12 @@ __all__: list[str] = [
     "ball",
     "block",
     "build_info",
+    "egl_cures",
+    "egl_devices",
     "instruction_sets",
     "stages",
     "usable_threads",
+    "visible_gpus",
 ]
 
 class FluidParams:
@@ -886,6 +889,7 @@ class Renderer:
         self,
         width: typing.SupportsInt | typing.SupportsIndex,
         height: typing.SupportsInt | typing.SupportsIndex,
+        device: str = "",
         timed: bool = False,
     ) -> None: ...
     def close(self) -> None: ...
@@ -894,6 +898,10 @@ class Renderer:
         self, positions: typing.Any, camera: Camera, params: RenderParams
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     @property
+    def asked_for(self) -> bool: ...
+    @property
+    def attempts(self) -> list[str]: ...
+    @property
     def closed(self) -> bool: ...
     @property
     def description(self) -> str: ...
@@ -901,6 +909,8 @@ class Renderer:
     def info(self) -> dict: ...
     @property
     def report(self) -> dict: ...
+    @property
+    def software(self) -> bool: ...
 
 def ball(
     center: typing.Annotated[
@@ -925,6 +935,16 @@ def build_info() -> dict[str, str]:
     Compiler, instruction set and libraries of this build.
     """
 
+def egl_cures() -> list[str]:
+    """
+    What to do where rendering, or a GPU for it, is missing.
+    """
+
+def egl_devices() -> list:
+    """
+    Devices that EGL lists.
+    """
+
 def instruction_sets() -> list[str]:
     """
     Instruction sets that the solver is compiled for and this processor has, plainest first.
@@ -933,4 +953,9 @@ def instruction_sets() -> list[str]:
 def usable_threads(requested: typing.SupportsInt | typing.SupportsIndex) -> int:
     """
     Threads used for a request, 0 being all.
+    """
+
+def visible_gpus() -> list[str]:
+    """
+    Device files of GPUs, usable or not.
     """
