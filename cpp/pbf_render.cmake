@@ -14,6 +14,8 @@ add_library(pbf_render STATIC
   pbf/render/params.cpp
   pbf/render/crowding.cpp
   pbf/render/sun_shadow.cpp
+  pbf/render/mesh.cpp
+  pbf/render/environment_map.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -24,6 +26,8 @@ add_library(pbf_render STATIC
   pbf/render/passes/depth_smooth.cpp
   pbf/render/passes/thickness_smooth.cpp
   pbf/render/passes/normal.cpp
+  pbf/render/passes/environment.cpp
+  pbf/render/passes/opaque_meshes.cpp
   pbf/render/passes/composite.cpp
   pbf/render/passes/resolve.cpp
   pbf/render/fluid_renderer.cpp)
@@ -45,6 +49,8 @@ pbf_embed_glsl(pbf_render
   environment.glsl
   display.glsl
   background.frag
+  opaque_meshes.vert
+  opaque_meshes.frag
   composite.frag
   resolve.frag
   tank_edges.vert

@@ -2,10 +2,13 @@
 
 #include "pbf/gl/egl_context.hpp"
 #include "pbf/render/camera.hpp"
+#include "pbf/render/environment_map.hpp"
 #include "pbf/render/image.hpp"
+#include "pbf/render/mesh.hpp"
 #include "pbf/render/params.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +16,7 @@
 namespace pbf {
 
 struct Surface;
+class Texture;
 
 /// What drawing the last picture took.
 struct RenderReport {
@@ -34,7 +38,12 @@ class FluidRenderer {
   FluidRenderer& operator=(const FluidRenderer&) = delete;
 
   /// @param positions  finite, column i is particle i [m]
-  Image render(const PointsView& positions, const Camera& camera, const RenderParams& params);
+  Image render(const PointsView& positions,
+               const Camera& camera,
+               const RenderParams& params,
+               const Meshes& meshes = {});
+  /// What background and reflection "map" show; nothing takes it away again.
+  void set_environment_map(const std::optional<EnvironmentMap>& map);
   Layers layers(const PointsView& positions, const Camera& camera, const RenderParams& params);
 
   [[nodiscard]] int width() const { return width_; }
@@ -60,6 +69,7 @@ class FluidRenderer {
   EglContext context_;
   std::unique_ptr<Passes> passes_;
   std::unique_ptr<Targets> targets_;
+  std::unique_ptr<Texture> environment_map_;
   RenderReport report_;
 };
 
