@@ -16,6 +16,7 @@ add_library(pbf_render STATIC
   pbf/render/layer_filter.cpp
   pbf/render/crowding_kernels.cpp
   pbf/render/sun_shadow.cpp
+  pbf/render/flow_schedule.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -24,15 +25,20 @@ add_library(pbf_render STATIC
   pbf/render/passes/sphere_depth.cpp
   pbf/render/passes/thickness.cpp
   pbf/render/passes/smooth.cpp
+  pbf/render/passes/curvature_flow.cpp
   pbf/render/passes/normal.cpp
   pbf/render/passes/composite.cpp
   pbf/render/raster/tiles.cpp
   pbf/render/raster/map.cpp
+  pbf/render/raster/surroundings.cpp
   pbf/render/raster/smooth.cpp
   pbf/render/raster/splat_kernels.cpp
   pbf/render/raster/splats.cpp
   pbf/render/passes/resolve.cpp
   pbf/render/raster/surface_maps.cpp
+  pbf/render/raster/smooth_kernels.cpp
+  pbf/render/raster/curvature_flow.cpp
+  pbf/render/raster/curvature_flow_kernels.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core
@@ -43,7 +49,8 @@ target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
 pbf_add_lanes(pbf_render
   pbf/render/crowding_lanes.cpp
   pbf/render/raster/splats_lanes.cpp
-  pbf/render/raster/smooth_lanes.cpp)
+  pbf/render/raster/smooth_lanes.cpp
+  pbf/render/raster/curvature_flow_lanes.cpp)
 
 pbf_embed_glsl(pbf_render
   frame.glsl
@@ -54,6 +61,7 @@ pbf_embed_glsl(pbf_render
   fullscreen.vert
   fluid_tiles.vert
   smooth.frag
+  curvature_flow.frag
   normal.frag
   environment.glsl
   display.glsl

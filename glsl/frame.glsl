@@ -20,6 +20,16 @@ bool is_surface(float a) { return a > -1e29; }
 float affine_depth(float d) { return u_size.z > 0.5 ? 1.0 / d : -d; }
 float depth_of(float a) { return u_size.z > 0.5 ? 1.0 / a : -a; }
 
+// How much affine depth is less a length [m] farther away, and more a length nearer, at most at half
+// of the depth.
+float farther(float a, float length) {
+  return u_size.z > 0.5 ? a * a * length / (1.0 + a * length) : length;
+}
+float nearer(float a, float length) {
+  float share = min(a * length, 0.5);
+  return u_size.z > 0.5 ? a * share / (1.0 - share) : length;
+}
+
 // The depth of spheres carries the crowding of the particle that is in front in its two lowest
 // bits: 0 in a body of fluid, 3 for a drop alone. They change the depth by at most 4e-7 of itself,
 // and the blending that finds the front finds them as well.

@@ -91,15 +91,6 @@ float smoothed(ivec2 pixel, float value, float radius, Window window) {
   return determinant > 1e-6 * s0 * s0 ? value + (s2 * t0 - s1 * t1) / determinant : value;
 }
 
-// From affine depth a to that of what is a length farther, and nearer: at most half of the depth.
-float farther(float a, float length) {
-  return u_size.z > 0.5 ? a * a * length / (1.0 + a * length) : length;
-}
-float nearer(float a, float length) {
-  float share = min(a * length, 0.5);
-  return u_size.z > 0.5 ? a * share / (1.0 - share) : length;
-}
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float value = texelFetch(u_values, pixel, 0).r;

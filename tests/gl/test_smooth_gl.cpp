@@ -2,52 +2,24 @@
 #include "pbf/render/passes/smooth.hpp"
 #include "pbf/render/raster/smooth.hpp"
 
-#include "gl_fixture.hpp"
-#include <bit>
-#include <cmath>
+#include "filter_fixture.hpp"
 
 using namespace pbf;
 using namespace pbf::test;
 
 namespace {
 
-/// Where a filter runs: each has to pass the same tests.
-enum class Way { glsl, cpp };
-constexpr Way kWays[] = {Way::glsl, Way::cpp};
 constexpr Smoothing kSeparable[] = {Smoothing::bilateral, Smoothing::gaussian,
                                     Smoothing::narrow_range};
 
 constexpr double kHere = 2.0;  // depth of most surfaces here [m]
 
 using Layer = LayerFilter::Layer;
-using Function = std::function<double(int, int)>;
 
 LayerFilter depth_of(Smoothing kind, Real radius = 0.2F, Real range = 0.1F, Real behind = 0.05F) {
   return {Layer::depth, kind, radius, range, behind};
 }
 LayerFilter thickness_of(Smoothing kind) { return {Layer::thickness, kind, 0.2F, 0.1F, 0}; }
-
-/// A sphere's affine depth that carries a crowding: level 0 in a body of fluid, 3 for a drop.
-double with_level(double affine_depth, std::uint32_t level) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(affine_depth));
-  return std::bit_cast<float>((bits & ~3U) | level);
-}
-
-raster::Map map_of(const GlFixture& gl, const Function& value) {
-  raster::Map map(gl.width(), gl.height(), kNothing);
-  for (int y = 0; y < gl.height(); ++y) {
-    for (int x = 0; x < gl.width(); ++x) map.row(y)[x] = static_cast<float>(value(x, y));
-  }
-  return map;
-}
-
-raster::Tiles all_tiles(const GlFixture& gl) {
-  raster::Tiles tiles(gl.width(), gl.height());
-  for (int row = 0; row < tiles.rows(); ++row) {
-    for (int column = 0; column < tiles.columns(); ++column) tiles.mark(column, row);
-  }
-  return tiles;
-}
 
 std::vector<float> smooth_in_glsl(const GlFixture& gl,
                                   const LayerFilter& filter,
@@ -70,11 +42,7 @@ std::vector<float> smooth_in_cpp(const GlFixture& gl,
   raster::Map out(gl.width(), gl.height(), kNothing);
   raster::smooth(filter, gl.frame(), all_tiles(gl), map_of(gl, value), map_of(gl, sphere), between,
                  out, threads);
-  std::vector<float> result;
-  for (int y = 0; y < gl.height(); ++y) {
-    result.insert(result.end(), out.row(y), out.row(y) + gl.width());
-  }
-  return result;
+  return numbers_of(gl, out);
 }
 
 std::vector<float> smooth(
@@ -85,13 +53,6 @@ std::vector<float> smooth(
     const Function& sphere = [](int, int) { return with_level(0.5, 0); }) {
   return way == Way::glsl ? smooth_in_glsl(gl, filter, value, sphere)
                           : smooth_in_cpp(gl, filter, value, sphere);
-}
-
-Camera parallel(Real height) {
-  Camera camera = GlFixture::looking_down_z();
-  camera.orthographic = true;
-  camera.height = height;
-  return camera;
 }
 
 }  // namespace
@@ -297,25 +258,6 @@ TEST_CASE("smooth: of thickness a wedge stays, and a high step is kept or spread
     CHECK(smooth(way, gl, thickness_of(Smoothing::gaussian), step)[gl.at(31, 10)] > 0.14F);
   }
 }
-
-namespace {
-
-/// Spheres on a tilted plane, holes, steps and drops, at depths that make kernels of 1 to 60 pixels.
-struct Rough {
-  const GlFixture& gl;
-  double near;
-  [[nodiscard]] double depth(int x, int y) const {
-    const double bump = 0.02 * std::sin(0.9 * x) * std::cos(0.7 * y);
-    const double step = x > 150 ? 0.6 : 0;
-    return near * (1 + 0.01 * x + 0.02 * y) + bump + step;
-  }
-  [[nodiscard]] double sphere(int x, int y) const {
-    if (std::hypot(x - 60, y - 30) < 9 || x % 41 == 7) return kNothing;
-    return with_level(1 / depth(x, y), static_cast<std::uint32_t>(x / 50) % 4);
-  }
-};
-
-}  // namespace
 
 TEST_CASE("smooth: C++ and GLSL give the same numbers, for kernels of 1 to 60 pixels") {
   const GlFixture gl(203, 101);  // no multiple of a tile

@@ -4,6 +4,7 @@
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/passes/composite.hpp"
+#include "pbf/render/passes/curvature_flow.hpp"
 #include "pbf/render/passes/normal.hpp"
 #include "pbf/render/passes/resolve.hpp"
 #include "pbf/render/passes/smooth.hpp"
@@ -11,6 +12,7 @@
 #include "pbf/render/passes/thickness.hpp"
 #include "pbf/render/raster/surface_maps.hpp"
 #include "pbf/render/read_back.hpp"
+#include "pbf/render/target.hpp"
 
 #include <chrono>
 
@@ -76,17 +78,10 @@ struct FluidRenderer::Passes {
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
   Smooth smooth{glsl_source};
+  CurvatureFlow curvature_flow{glsl_source};
   Normal normal{glsl_source};
   Composite composite{glsl_source};
   Resolve resolve{glsl_source};
-};
-
-/// A texture and the framebuffer that draws into it.
-struct Target {
-  Target(int width, int height, Format format)
-      : texture(width, height, format), framebuffer({&texture}) {}
-  Texture texture;
-  Framebuffer framebuffer;
 };
 
 struct FluidRenderer::Targets {
@@ -200,7 +195,17 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   }
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
-    for (int k = 0; k < params.smoothing_iterations; ++k) {
+    const bool by_flow = params.smoothing == Smoothing::curvature_flow;
+    if (by_flow && params.smoothing_iterations > 0) {
+      const FlowSchedule schedule =
+          flow_schedule(depth_filter(params), params.smoothing_iterations,
+                        frame_block(camera, width_, height_), to.tiles.nearest());
+      // What is in the other two is not needed yet.
+      pass.curvature_flow(depth_filter(params), schedule, to.tiles, *depth, *depth,
+                          {&to.depth_smooth, &to.between, &to.thickness_smooth});
+      depth = &to.depth_smooth.texture;
+    }
+    for (int k = 0; !by_flow && k < params.smoothing_iterations; ++k) {
       pass.smooth(depth_filter(params), to.tiles, *depth, to.depth.texture, to.between.framebuffer,
                   to.between.texture, to.depth_smooth.framebuffer);
       depth = &to.depth_smooth.texture;

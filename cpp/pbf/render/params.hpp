@@ -7,10 +7,10 @@
 namespace pbf {
 
 /// How depth is smoothed.
-enum class Smoothing { bilateral, gaussian, narrow_range };
+enum class Smoothing { bilateral, gaussian, narrow_range, curvature_flow };
 template <>
 struct Choices<Smoothing> {
-  static constexpr std::array names{"bilateral", "gaussian", "narrow_range"};
+  static constexpr std::array names{"bilateral", "gaussian", "narrow_range", "curvature_flow"};
 };
 
 /// How thickness is smoothed.
@@ -112,7 +112,8 @@ struct RenderParams {
               "How depth is smoothed. bilateral keeps steps of depth that are higher than "
               "smoothing_range, so that a drop stays in front of what is behind it; narrow_range "
               "also smooths across steep surfaces and rounds off the edge of what is in front; "
-              "gaussian melts what is in front and behind together."},
+              "curvature_flow moves the surface by its curvature, at many times the cost; gaussian "
+              "melts what is in front and behind together."},
         Field{"smoothing_radius", &P::smoothing_radius, "m", inside(0, 1e6),
               "Where the depth filter's kernel ends, 2 * radius if not given; its standard "
               "deviation is half of that. Larger is smoother and rounder."},

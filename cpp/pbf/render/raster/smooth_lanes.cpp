@@ -1,7 +1,7 @@
 // Compiled once per instruction set (cpp/pbf_render.cmake). The formulas are those of
 // glsl/smooth.frag, where they are explained.
-#include "pbf/core/lanes.hpp"
-#include "pbf/render/raster/smooth_loops.hpp"
+#include "pbf/render/raster/frame_lanes.hpp"
+#include "pbf/render/raster/smooth_kernels.hpp"
 
 namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 using raster::kMostTaps;
 using raster::kTileSide;
 using raster::Map;
-using raster::SmoothLoops;
+using raster::SmoothKernels;
 using raster::SmoothTerms;
 using raster::Surroundings;
 using raster::Tile;
@@ -23,20 +23,13 @@ PBF_INLINE float highest(Lanes a) {
   return result;
 }
 
-/// The crowding in the last two bits of a sphere's affine depth (glsl/frame.glsl).
-PBF_INLINE Lanes crowding_of(Lanes a) {
-  const auto level = reinterpret_cast<Mask::Vector>(a.v) & 3;
-  return Lanes(1) - Lanes(__builtin_convertvector(level, Lanes::Vector)) / Lanes(3);
-}
-
 PBF_INLINE Lanes radius_at(const SmoothTerms& terms, Lanes value, Lanes sphere) {
-  const Lanes nothing(-1e29F);
   const Lanes depth = terms.thickness ? sphere : value;
   Lanes radius(terms.radius);
   if (!terms.thickness) radius *= crowding_of(sphere);
   if (terms.perspective) radius *= depth;
   if (terms.thickness) radius = select(value > Lanes(0), radius, Lanes(0));
-  return min(select(depth > nothing, radius, Lanes(0)), Lanes(kMostPixels));
+  return min(select(depth > Lanes(kLeastSurface), radius, Lanes(0)), Lanes(kMostPixels));
 }
 
 float radii(
@@ -60,14 +53,10 @@ struct Window {
 };
 
 PBF_INLINE Window window_at(const SmoothTerms& terms, Lanes a) {
-  if (terms.thickness || !terms.perspective) {
-    return {Lanes(terms.range), Lanes(terms.range), Lanes(terms.behind)};
-  }
-  const auto farther = [&](float length) PBF_LAMBDA_INLINE {
-    return a * a * Lanes(length) / (Lanes(1) + a * Lanes(length));
-  };
-  const Lanes share = min(a * Lanes(terms.range), Lanes(0.5F));
-  return {farther(terms.range), a * share / (Lanes(1) - share), farther(terms.behind)};
+  if (terms.thickness) return {Lanes(terms.range), Lanes(terms.range), Lanes(0)};
+  const bool perspective = terms.perspective;
+  return {farther(perspective, a, terms.range), nearer(perspective, a, terms.range),
+          farther(perspective, a, terms.behind)};
 }
 
 /// The value of the fitted line, for pixels whose kernels have the same stride.
@@ -79,9 +68,12 @@ PBF_INLINE Lanes smoothed(const SmoothTerms& terms,
                           Lanes radius,
                           int stride) {
   const Lanes zero(0), one(1);
-  const Lanes empty(terms.thickness ? 0.0F : -1e29F);
+  const Lanes empty(terms.thickness ? 0.0F : kLeastSurface);
   const Lanes reach = radius / Lanes(static_cast<float>(stride));
   const float most = highest(reach);
+  const bool along_row = around.columns > 0;
+  const std::ptrdiff_t tap = along_row ? 1 : around.pitch;
+  const int farthest = along_row ? around.columns : around.rows;
   const Window window = window_at(terms, value);
   const Lanes inverse_down = one / window.down, inverse_up = one / window.up;
   Lanes low = -window.down, high = window.up;
@@ -90,8 +82,8 @@ PBF_INLINE Lanes smoothed(const SmoothTerms& terms,
   Lanes ratio = exp(Lanes(-2) / (reach * reach));
   const Lanes ratio_step = ratio * ratio;
   Lanes s0 = one, s1 = zero, s2 = zero, t0 = zero, t1 = zero;
-  for (int k = 1; static_cast<float>(k - 1) < most && k * stride <= around.reach; ++k) {
-    const std::ptrdiff_t offset = k * stride * around.tap;
+  for (int k = 1; static_cast<float>(k - 1) < most && k * stride <= farthest; ++k) {
+    const std::ptrdiff_t offset = k * stride * tap;
     const Lanes x(static_cast<float>(k));
     space *= ratio;
     ratio *= ratio_step;
@@ -147,7 +139,7 @@ void smooth(const SmoothTerms& terms,
             std::ptrdiff_t pitch) {
   for (int y = 0; y < kTileSide; ++y) {
     for (int x = 0; x < kTileSide; x += kLanes, radius += kLanes) {
-      const float* at = around.first + y * around.row + x;
+      const float* at = around.first + y * around.pitch + x;
       const Lanes value = load_lanes(at);
       const Lanes r = load_lanes(radius);
       const Lanes stride = max(ceil(r / Lanes(kMostTaps)), Lanes(1));
@@ -183,9 +175,9 @@ void smooth_any(const SmoothTerms& terms,
 
 }  // namespace
 
-const SmoothLoops& smooth_loops() {
-  static constexpr SmoothLoops loops{radii, smooth_any};
-  return loops;
+const SmoothKernels& smooth_kernels() {
+  static constexpr SmoothKernels kernels{radii, smooth_any};
+  return kernels;
 }
 
 }  // namespace pbf::PBF_ISA_NAMESPACE

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pbf/core/isa.hpp"
-#include "pbf/render/raster/map.hpp"
+#include "pbf/render/raster/surroundings.hpp"
 
 namespace pbf::raster {
 
@@ -16,22 +16,14 @@ struct SmoothTerms {
   float behind;  ///< [m]
 };
 
-/// The values of a tile and around it, in reach of the filter: `first` is the tile's first pixel,
-/// from row to row it is `row` numbers, from neighbor to neighbor along the axis `tap`. Neighbors
-/// up to `reach` pixels away can be read; those farther do not exist.
-struct Surroundings {
-  const float* first;
-  std::ptrdiff_t row, tap;
-  int reach;
-};
-
 /// The inner loops of the separable filters, for one instruction set.
-struct SmoothLoops {
+struct SmoothKernels {
   /// Writes the radius [pixels] of each pixel of a tile, 0 for one that stays as it is. Returns the
   /// largest.
   float (*radii)(
       const SmoothTerms& terms, const Map& values, const Map& spheres, Tile tile, float* radius);
-  /// Writes the tile's smoothed values to rows that are `pitch` numbers apart.
+  /// Writes the tile's smoothed values to rows that are `pitch` numbers apart. The axis is the one
+  /// along which there are surroundings.
   void (*smooth)(const SmoothTerms& terms,
                  const Surroundings& around,
                  const float* radius,
@@ -39,7 +31,7 @@ struct SmoothLoops {
                  std::ptrdiff_t pitch);
 };
 
-const SmoothLoops& smooth_loops(Isa isa);
+const SmoothKernels& smooth_kernels(Isa isa);
 
 /// More neighbors to a side than this are thinned out evenly.
 inline constexpr int kMostTaps = 24;
