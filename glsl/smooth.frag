@@ -16,6 +16,10 @@
 //                 the pixel, which rounds off the edge of what is in front. Pairs are visited
 //                 from the pixel outwards; what lies beyond a hole does not count, for the window
 //                 could not grow there.
+// Neighbors of a kernel wider than MOST_TAPS are thinned out evenly: it covers many pixels of each
+// sphere and sees the same surface. Beside an edge, though, pixels in between see other neighbors
+// than their own; a last, dense pass over as many pixels as were left out joins them.
+//
 // raster/smooth_lanes.cpp is this file in C++.
 uniform sampler2D u_values;
 uniform sampler2D u_spheres;
@@ -24,10 +28,9 @@ uniform int u_thickness;  // 1: the layer is thickness
 uniform float u_radius;   // where the kernel ends [m]; of depth: in a body of fluid
 uniform float u_range;    // [m]
 uniform float u_behind;   // [m]
+uniform int u_close_gaps; // 1: the last pass, over what thinning out has left
 layout(location = 0) out float o_value;
 
-// More neighbors to a side than this are thinned out evenly: a kernel that wide covers many pixels
-// of each sphere and sees the same surface.
 const float MOST_TAPS = 24.0;
 const float MOST_PIXELS = 65536.0;  // of a radius: wider than any picture
 
@@ -37,12 +40,18 @@ struct Window {
   float down, up, behind;
 };
 
+float stride_of(float radius) { return max(ceil(radius / MOST_TAPS), 1.0); }
+float gap_radius(float radius) {
+  float stride = stride_of(radius);
+  return stride > 1.0 ? 1.5 * stride : 0.0;
+}
+
 float smoothed(ivec2 pixel, float value, float radius, Window window) {
   ivec2 size = textureSize(u_values, 0);
   int at = pixel.x * u_axis.x + pixel.y * u_axis.y;
   int last = size.x * u_axis.x + size.y * u_axis.y - 1;
   float empty = u_thickness == 1 ? 0.0 : -1e29;
-  float stride = max(ceil(radius / MOST_TAPS), 1.0);
+  float stride = stride_of(radius);
   float reach = radius / stride;
   int taps = int(ceil(reach));
   // Moments of the weights and of the differences to the pixel's own value; distances in strides.
@@ -107,7 +116,9 @@ void main() {
     radius *= crowding_of(sphere) * pixels_per_meter(depth_of(value));
     window = Window(farther(value, u_range), nearer(value, u_range), farther(value, u_behind));
   }
+  radius = min(radius, MOST_PIXELS);
+  if (u_close_gaps == 1) radius = gap_radius(radius);
   if (radius <= 0.0) return;
-  float result = smoothed(pixel, value, min(radius, MOST_PIXELS), window);
+  float result = smoothed(pixel, value, radius, window);
   o_value = u_thickness == 1 ? max(result, 0.0) : result;
 }

@@ -174,6 +174,30 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("smooth: a kernel that is thinned out answers with as smooth a Gaussian in the end") {
+  const GlFixture gl(201, 201, parallel(20.1F));  // a pixel is 0.1 m
+  // 60 pixels in taps of three; then 1.5 times three pixels in taps of one.
+  LayerFilter filter = depth_of(Smoothing::gaussian, 6);
+  CHECK(leaves_gaps(filter, gl.frame(), 1));
+  CHECK(!leaves_gaps(depth_of(Smoothing::gaussian, 2.39F), gl.frame(), 1));
+  const auto impulse = [](int x, int y) { return x == 100 && y == 100 ? 1e3 : -2.0; };
+  for (const Way way : kWays) {
+    filter.close_gaps = false;
+    const auto gaps = smooth(way, gl, filter, impulse);
+    CHECK(gaps[gl.at(100, 101)] == -2);
+    CHECK(gaps[gl.at(100, 103)] > -1);
+    filter.close_gaps = true;
+    const auto closed = smooth(way, gl, filter, [&](int x, int y) { return gaps[gl.at(x, y)]; });
+    const double peak = closed[gl.at(100, 100)] + 2;
+    const double variance = 30 * 30;
+    for (int dx = 0; dx <= 40; ++dx) {
+      const double expected = peak * std::exp(-0.5 * dx * dx / variance);
+      CHECK(closed[gl.at(100 + dx, 100)] + 2 == doctest::Approx(expected).epsilon(0.1));
+      CHECK(closed[gl.at(100, 100 + dx)] + 2 == doctest::Approx(expected).epsilon(0.1));
+    }
+  }
+}
+
 TEST_CASE("smooth: narrow_range takes in a slope that the range alone would cut") {
   // A ramp of 0.08 m a pixel over 12 pixels to a side: far more than the range of 0.3 m, but no
   // step between neighbors is.

@@ -180,6 +180,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                                     const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
+  const FrameBlock frame = frame_block(camera, to.width, to.height);
   stage("crowding", [&] {
     pass.crowding.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0);
   });
@@ -193,31 +194,40 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth.framebuffer); });
     stage("thickness", [&] { (*pass.thickness)(pass.sprites, params, to.thickness.framebuffer); });
   }
+  const auto smooth = [&](const LayerFilter& filter, int iterations, const Texture& values,
+                          const Target& out) {
+    const Texture* last = &values;
+    const auto once = [&](const LayerFilter& with) {
+      pass.smooth(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
+                  to.between.texture, out.framebuffer);
+      last = &out.texture;
+    };
+    for (int k = 0; k < iterations; ++k) once(filter);
+    if (iterations > 0 && leaves_gaps(filter, frame, to.tiles.nearest())) {
+      LayerFilter closing = filter;
+      closing.close_gaps = true;
+      once(closing);
+    }
+    return last;
+  };
   const Texture* depth = &to.depth.texture;
   stage("depth_smooth", [&] {
-    const bool by_flow = params.smoothing == Smoothing::curvature_flow;
-    if (by_flow && params.smoothing_iterations > 0) {
+    const LayerFilter filter = depth_filter(params);
+    if (filter.kind != Smoothing::curvature_flow) {
+      depth = smooth(filter, params.smoothing_iterations, *depth, to.depth_smooth);
+    } else if (params.smoothing_iterations > 0) {
       const FlowSchedule schedule =
-          flow_schedule(depth_filter(params), params.smoothing_iterations,
-                        frame_block(camera, width_, height_), to.tiles.nearest());
+          flow_schedule(filter, params.smoothing_iterations, frame, to.tiles.nearest());
       // What is in the other two is not needed yet.
-      pass.curvature_flow(depth_filter(params), schedule, to.tiles, *depth, *depth,
+      pass.curvature_flow(filter, schedule, to.tiles, *depth, *depth,
                           {&to.depth_smooth, &to.between, &to.thickness_smooth});
-      depth = &to.depth_smooth.texture;
-    }
-    for (int k = 0; !by_flow && k < params.smoothing_iterations; ++k) {
-      pass.smooth(depth_filter(params), to.tiles, *depth, to.depth.texture, to.between.framebuffer,
-                  to.between.texture, to.depth_smooth.framebuffer);
       depth = &to.depth_smooth.texture;
     }
   });
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
-    for (int k = 0; k < params.thickness_iterations; ++k) {
-      pass.smooth(thickness_filter(params), to.tiles, *thickness, to.depth.texture,
-                  to.between.framebuffer, to.between.texture, to.thickness_smooth.framebuffer);
-      thickness = &to.thickness_smooth.texture;
-    }
+    thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
+                       to.thickness_smooth);
   });
   stage("normal", [&] { pass.normal(to.tiles, *depth, to.normal.framebuffer); });
   return {to.tiles, *depth, *thickness, to.normal.texture};

@@ -22,4 +22,10 @@ LayerFilter thickness_filter(const RenderParams& params) {
           .behind = 0};
 }
 
+bool leaves_gaps(const LayerFilter& filter, const FrameBlock& frame, Real nearest) {
+  const bool perspective = frame.size[2] > 0.5F;
+  const Real scale = frame.size[3] / (perspective ? std::max(nearest, frame.lens[2]) : 1);
+  return filter.radius * scale > static_cast<Real>(kMostTaps);
+}
+
 }  // namespace pbf

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pbf/render/frame_block.hpp"
 #include "pbf/render/params.hpp"
 
 namespace pbf {
@@ -13,9 +14,17 @@ struct LayerFilter {
   Real radius;  ///< where the kernel ends [m]
   Real range;   ///< [m]
   Real behind;  ///< how far behind a pixel narrow_range puts what is behind its window [m]
+  bool close_gaps = false;  ///< the last pass, over what thinning out wide kernels has left
 };
 
 LayerFilter depth_filter(const RenderParams& params);
 LayerFilter thickness_filter(const RenderParams& params);
+
+/// More neighbors to a side than this are thinned out evenly.
+inline constexpr int kMostTaps = 24;
+
+/// Whether any kernel is that wide, so that a last pass with close_gaps is due.
+/// @param nearest  depth of the nearest fluid [m]
+bool leaves_gaps(const LayerFilter& filter, const FrameBlock& frame, Real nearest);
 
 }  // namespace pbf

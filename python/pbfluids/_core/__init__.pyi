@@ -748,7 +748,7 @@ class RenderParams:
     @property
     def smoothing(self) -> str:
         """
-        bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in front of what is behind it; gaussian melts them together.
+        How depth is smoothed. bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in front of what is behind it; narrow_range also smooths across steep surfaces and rounds off the edge of what is in front; curvature_flow moves the surface by its curvature, at many times the cost; gaussian melts what is in front and behind together.
         """
     @smoothing.setter
     def smoothing(self, arg1: str) -> None: ...
@@ -771,7 +771,7 @@ class RenderParams:
     @property
     def smoothing_range(self) -> float | None:
         """
-        Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not given.
+        Steps of depth higher than this are kept, by all but the gaussian filter; 4 * radius if not given.
         """
     @smoothing_range.setter
     def smoothing_range(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
@@ -852,7 +852,7 @@ class RenderParams:
     @property
     def thickness_smoothing(self) -> str:
         """
-        As smoothing, for the thickness.
+        How thickness is smoothed: gaussian, or bilateral, which keeps steps higher than thickness_range.
         """
     @thickness_smoothing.setter
     def thickness_smoothing(self, arg1: str) -> None: ...

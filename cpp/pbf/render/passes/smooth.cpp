@@ -36,6 +36,7 @@ void Smooth::operator()(const LayerFilter& filter,
   program.set("u_radius", filter.radius);
   program.set("u_range", filter.range);
   program.set("u_behind", filter.behind);
+  program.set("u_close_gaps", filter.close_gaps ? 1 : 0);
   const float empty = thickness ? 0 : kNothing;
   spheres.bind(1);
   values.bind(0);

@@ -18,6 +18,8 @@ SmoothTerms terms_of(const LayerFilter& filter, const FrameBlock& frame) {
   return {.kind = kind,
           .thickness = filter.layer == LayerFilter::Layer::thickness,
           .perspective = frame.size[2] > 0.5F,
+          .close_gaps = filter.close_gaps,
+          .most_taps = kMostTaps,
           .radius = filter.radius * frame.size[3],
           .range = filter.range,
           .behind = filter.behind};

@@ -11,6 +11,8 @@ struct SmoothTerms {
   Kind kind;
   bool thickness;  ///< the layer is thickness
   bool perspective;
+  bool close_gaps;
+  int most_taps;
   float radius;  ///< where the kernel ends [pixels], in perspective at depth 1
   float range;   ///< [m]
   float behind;  ///< [m]
@@ -32,8 +34,5 @@ struct SmoothKernels {
 };
 
 const SmoothKernels& smooth_kernels(Isa isa);
-
-/// More neighbors to a side than this are thinned out evenly.
-inline constexpr int kMostTaps = 24;
 
 }  // namespace pbf::raster

@@ -6,7 +6,6 @@
 namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
 
-using raster::kMostTaps;
 using raster::kTileSide;
 using raster::Map;
 using raster::SmoothKernels;
@@ -23,13 +22,22 @@ PBF_INLINE float highest(Lanes a) {
   return result;
 }
 
+PBF_INLINE Lanes stride_of(const SmoothTerms& terms, Lanes radius) {
+  return max(ceil(radius / Lanes(static_cast<float>(terms.most_taps))), Lanes(1));
+}
+PBF_INLINE Lanes gap_radius(const SmoothTerms& terms, Lanes radius) {
+  const Lanes stride = stride_of(terms, radius);
+  return select(stride > Lanes(1), Lanes(1.5F) * stride, Lanes(0));
+}
+
 PBF_INLINE Lanes radius_at(const SmoothTerms& terms, Lanes value, Lanes sphere) {
   const Lanes depth = terms.thickness ? sphere : value;
   Lanes radius(terms.radius);
   if (!terms.thickness) radius *= crowding_of(sphere);
   if (terms.perspective) radius *= depth;
   if (terms.thickness) radius = select(value > Lanes(0), radius, Lanes(0));
-  return min(select(depth > Lanes(kLeastSurface), radius, Lanes(0)), Lanes(kMostPixels));
+  radius = min(select(depth > Lanes(kLeastSurface), radius, Lanes(0)), Lanes(kMostPixels));
+  return terms.close_gaps ? gap_radius(terms, radius) : radius;
 }
 
 float radii(
@@ -142,7 +150,7 @@ void smooth(const SmoothTerms& terms,
       const float* at = around.first + y * around.pitch + x;
       const Lanes value = load_lanes(at);
       const Lanes r = load_lanes(radius);
-      const Lanes stride = max(ceil(r / Lanes(kMostTaps)), Lanes(1));
+      const Lanes stride = stride_of(terms, r);
       Lanes result = value;
       const int largest = static_cast<int>(highest(stride));
       for (int s = -static_cast<int>(highest(-stride)); s <= largest; ++s) {
