@@ -229,7 +229,9 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
                        to.thickness_smooth);
   });
-  stage("normal", [&] { pass.normal(to.tiles, *depth, to.normal.framebuffer); });
+  stage("normal", [&] {
+    pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
+  });
   return {to.tiles, *depth, *thickness, to.normal.texture};
 }
 
