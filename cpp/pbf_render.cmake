@@ -17,6 +17,7 @@ add_library(pbf_render STATIC
   pbf/render/crowding_kernels.cpp
   pbf/render/sun_shadow.cpp
   pbf/render/flow_schedule.cpp
+  pbf/render/nearest.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp

@@ -53,8 +53,9 @@ TEST_CASE("normal: takes the side that belongs to the surface, and faces the vie
   CHECK(lone[3 * gl.at(5, 5) + 2] == 1.0F);
   CHECK(lone[3 * gl.at(6, 5) + 2] == 0.0F);
   // A strand a pixel wide before one thing and beside another: the smaller step is none of its own.
-  const Texture strand =
-      gl.texture([](int x, int) { return 1 / (x < 32 ? 4.0 : x == 32 ? 2.0 : 2.5); });
+  const Texture strand = gl.texture([](int x, int) {
+    return 1 / (x < 32 ? 4.0 : x == 32 ? 2.0 : 2.5);
+  });
   pass(gl.tiles(), strand, 0.1F, Framebuffer({&result}));
   CHECK(gl.read(result, 3)[3 * gl.at(32, 24) + 2] == doctest::Approx(1).epsilon(1e-3));
 }

@@ -1,6 +1,8 @@
 #include "pbf/render/raster/surface_maps.hpp"
 
 #include "pbf/core/stopwatch.hpp"
+#include "pbf/render/nearest.hpp"
+#include "pbf/render/raster/curvature_flow.hpp"
 #include "pbf/render/raster/smooth.hpp"
 
 namespace pbf::raster {
@@ -11,13 +13,37 @@ SurfaceMaps::SurfaceMaps(int width, int height)
       depth_between_(width, height, kNothing),
       thickness_between_(width, height, 0),
       depth_out_(width, height, kNothing),
-      thickness_out_(width, height, 0) {}
+      thickness_out_(width, height, 0),
+      depth_third_(width, height, kNothing) {}
 
 template <class F>
 void SurfaceMaps::stage(const char* name, F&& pass) {
   milliseconds_.emplace_back(name, 0);
   const Stopwatch stopwatch(milliseconds_.back().second);
   pass();
+}
+
+const Map* SurfaceMaps::smoothed(const LayerFilter& filter,
+                                 int iterations,
+                                 const FrameBlock& frame,
+                                 Real nearest,
+                                 const Map& values,
+                                 Map& between,
+                                 Map& out,
+                                 int threads) {
+  if (iterations == 0) return &values;
+  const Map* last = &values;
+  const auto once = [&](const LayerFilter& with) {
+    smooth(with, frame, tiles(), *last, depth_, between, out, threads);
+    last = &out;
+  };
+  for (int k = 0; k < iterations; ++k) once(filter);
+  if (leaves_gaps(filter, frame, nearest)) {
+    LayerFilter closing = filter;
+    closing.close_gaps = true;
+    once(closing);
+  }
+  return last;
 }
 
 void SurfaceMaps::find(const PointsView& positions,
@@ -32,21 +58,22 @@ void SurfaceMaps::find(const PointsView& positions,
   });
   stage("bin", [&] { splats_.bin(crowding_.particles(), view, threads); });
   stage("sphere_depth", [&] { splats_.draw(view, depth_, thickness_, threads); });
-  smooth_depth_ = &depth_;
+  const Real nearest = nearest_front(positions, params.radius, frame, threads);
   stage("depth_smooth", [&] {
-    for (int k = 0; k < params.smoothing_iterations; ++k) {
-      smooth(depth_filter(params), frame, tiles(), *smooth_depth_, depth_, depth_between_,
-             depth_out_, threads);
+    const LayerFilter filter = depth_filter(params);
+    const int iterations = params.smoothing_iterations;
+    if (filter.kind == Smoothing::curvature_flow && iterations > 0) {
+      curvature_flow(filter, flow_schedule(filter, iterations, frame, nearest), frame, tiles(),
+                     depth_, depth_, {&depth_out_, &depth_between_, &depth_third_}, threads);
       smooth_depth_ = &depth_out_;
+    } else {
+      smooth_depth_ =
+          smoothed(filter, iterations, frame, nearest, depth_, depth_between_, depth_out_, threads);
     }
   });
-  smooth_thickness_ = &thickness_;
   stage("thickness_smooth", [&] {
-    for (int k = 0; k < params.thickness_iterations; ++k) {
-      smooth(thickness_filter(params), frame, tiles(), *smooth_thickness_, depth_,
-             thickness_between_, thickness_out_, threads);
-      smooth_thickness_ = &thickness_out_;
-    }
+    smooth_thickness_ = smoothed(thickness_filter(params), params.thickness_iterations, frame,
+                                 nearest, thickness_, thickness_between_, thickness_out_, threads);
   });
 }
 
