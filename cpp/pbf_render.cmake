@@ -23,6 +23,7 @@ add_library(pbf_render STATIC
   pbf/render/flow_schedule.cpp
   pbf/render/mesh.cpp
   pbf/render/environment_map.cpp
+  pbf/render/nearest.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp

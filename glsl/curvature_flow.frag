@@ -7,11 +7,11 @@
 //
 //   da/dt = D s^2 (M11 a_xx + 2 M12 a_xy + M22 a_yy),   M = I + r r^T - t t^T,   t = n_xy - n_z r,
 //
-// with s the pixels in a meter at this depth, n the unit normal (a_x, a_y, a - r . (a_x, a_y)) and r
-// the slopes of the ray, all in that space; parallel: r = 0 and n = (a_x, a_y, 1). The second
-// differences of a plane vanish in affine depth, so a plane rests, and neither camera nor resolution
-// is in the motion. On flat surfaces it is diffusion: after the time T a bump has been smoothed by a
-// Gaussian of variance 2 D T.
+// with s the pixels in a meter at this depth, n the unit normal (a_x, a_y, a - r . (a_x, a_y))
+// and r the slopes of the ray, all in that space; parallel: r = 0 and n = (a_x, a_y, 1). The
+// second differences of a plane vanish in affine depth, so a plane rests, and neither camera nor
+// resolution is in the motion. On flat surfaces it is diffusion: after the time T a bump has been
+// smoothed by a Gaussian of variance 2 D T.
 //
 // Explicit steps are stable only up to D T s^2 tr M = 1/2, and a smoothing length is many pixels.
 // A step has therefore several stages, Runge-Kutta-Legendre's of first order [MBA14], which reach

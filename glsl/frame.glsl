@@ -20,8 +20,8 @@ bool is_surface(float a) { return a > -1e29; }
 float affine_depth(float d) { return u_size.z > 0.5 ? 1.0 / d : -d; }
 float depth_of(float a) { return u_size.z > 0.5 ? 1.0 / a : -a; }
 
-// How much affine depth is less a length [m] farther away, and more a length nearer, at most at half
-// of the depth.
+// How much affine depth is less a length [m] farther away, and more a length nearer, at most at
+// half of the depth.
 float farther(float a, float length) {
   return u_size.z > 0.5 ? a * a * length / (1.0 + a * length) : length;
 }

@@ -1,21 +1,21 @@
 // smooth.frag: one axis of a smoothing filter. In: a layer, affine depth or thickness [m], and the
 // affine depth of the spheres with their crowding. Out: the layer.
 //
-// At each pixel a straight line is fitted to the neighbors along the axis by weighted least squares;
-// its value at the pixel is the result. A constant and a tilted plane are therefore kept exactly,
-// also beside a hole or the border, where only some neighbors exist.
+// At each pixel a straight line is fitted to the neighbors along the axis by weighted least
+// squares; its value at the pixel is the result. A constant and a tilted plane are therefore kept
+// exactly, also beside a hole or the border, where only some neighbors exist.
 //
 // Weights: exp(-k^2 / (2 s^2)) in space, k the distance and s = radius / 2 in pixels, fading out
 // over the last pixel so that nothing pops when the radius changes. Which neighbors count:
 //   GAUSSIAN      all
-//   BILATERAL     times (1 - u^2)^2, u the difference of values over the range: 0 from the range on,
-//                 so that a higher step is kept untouched
+//   BILATERAL     times (1 - u^2)^2, u the difference of values over the range: 0 from the range
+//                 on, so that a higher step is kept untouched
 //   NARROW_RANGE  those within a window of values that begins as the range and grows with what it
-//                 takes in, so that a steep surface passes [TY18]. A neighbor in front of the window
-//                 drops out together with its mirror image; one behind it counts as a little behind
-//                 the pixel, which rounds off the edge of what is in front. Pairs are visited
-//                 from the pixel outwards; what lies beyond a hole does not count, for the window
-//                 could not grow there.
+//                 takes in, so that a steep surface passes [TY18]. A neighbor in front of the
+//                 window drops out together with its mirror image; one behind it counts as a
+//                 little behind the pixel, which rounds off the edge of what is in front. Pairs
+//                 are visited from the pixel outwards; what lies beyond a hole does not count,
+//                 for the window could not grow there.
 // Neighbors of a kernel wider than MOST_TAPS are thinned out evenly: it covers many pixels of each
 // sphere and sees the same surface. Beside an edge, though, pixels in between see other neighbors
 // than their own; a last, dense pass over as many pixels as were left out joins them.
@@ -34,8 +34,8 @@ layout(location = 0) out float o_value;
 const float MOST_TAPS = 24.0;
 const float MOST_PIXELS = 65536.0;  // of a radius: wider than any picture
 
-// Lengths of the layer's own kind, all positive: down and up to the ends of the window, and to where
-// narrow_range puts what is below.
+// Lengths of the layer's own kind, all positive: down and up to the ends of the window, and to
+// where narrow_range puts what is below.
 struct Window {
   float down, up, behind;
 };

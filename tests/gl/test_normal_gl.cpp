@@ -18,7 +18,7 @@ TEST_CASE("normal: of a tilted plane within 0.1 degrees, at any field of view, b
       const Texture depth =
           gl.texture([&](int, int y) { return slope(y) > 0.05 ? slope(y) / 3 : double{kNothing}; });
       const Texture result(gl.width(), gl.height(), Format::rgba32f);
-      pass(gl.tiles(), depth, Framebuffer({&result}));
+      pass(gl.tiles(), depth, 0.1F, Framebuffer({&result}));
       const std::vector<float> normals = gl.read(result, 3);
       double worst = 0;
       for (int y = 0; y < gl.height(); ++y) {
@@ -41,15 +41,21 @@ TEST_CASE("normal: takes the side that belongs to the surface, and faces the vie
   const Normal pass(glsl_source);
   const Texture step = gl.texture([](int x, int) { return x < 32 ? 0.5 : 0.4; });
   const Texture result(gl.width(), gl.height(), Format::rgba32f);
-  pass(gl.tiles(), step, Framebuffer({&result}));
+  pass(gl.tiles(), step, 0.1F, Framebuffer({&result}));
   const std::vector<float> at_step = gl.read(result, 3);
   for (const int x : {31, 32}) {
     CHECK(at_step[3 * gl.at(x, 24) + 2] == doctest::Approx(1).epsilon(1e-4));
   }
   const Texture alone =
       gl.texture([](int x, int y) { return x == 5 && y == 5 ? 0.5 : double{kNothing}; });
-  pass(gl.tiles(), alone, Framebuffer({&result}));
+  pass(gl.tiles(), alone, 0.1F, Framebuffer({&result}));
   const std::vector<float> lone = gl.read(result, 3);
   CHECK(lone[3 * gl.at(5, 5) + 2] == 1.0F);
   CHECK(lone[3 * gl.at(6, 5) + 2] == 0.0F);
+  // A strand a pixel wide before one thing and beside another: the smaller step is none of its own.
+  const Texture strand = gl.texture([](int x, int) {
+    return 1 / (x < 32 ? 4.0 : x == 32 ? 2.0 : 2.5);
+  });
+  pass(gl.tiles(), strand, 0.1F, Framebuffer({&result}));
+  CHECK(gl.read(result, 3)[3 * gl.at(32, 24) + 2] == doctest::Approx(1).epsilon(1e-3));
 }

@@ -3,6 +3,7 @@
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
+#include "pbf/render/nearest.hpp"
 #include "pbf/render/passes/composite.hpp"
 #include "pbf/render/passes/curvature_flow.hpp"
 #include "pbf/render/passes/normal.hpp"
@@ -174,8 +175,10 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
     upload(maps_->thickness_smooth(), to.thickness_smooth.texture);
     to.tiles.upload(maps_->tiles());
   });
-  stage("normal",
-        [&] { passes_->normal(to.tiles, to.depth_smooth.texture, to.normal.framebuffer); });
+  stage("normal", [&] {
+    passes_->normal(to.tiles, to.depth_smooth.texture, params.smoothing_range_in_force(),
+                    to.normal.framebuffer);
+  });
   return {to.tiles, to.depth_smooth.texture, to.thickness_smooth.texture, to.normal.texture};
 }
 
@@ -185,6 +188,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                                     const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
+  const Real nearest = nearest_front(positions, params.radius, frame, 0);
   stage("crowding", [&] {
     pass.crowding.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0);
   });
@@ -207,7 +211,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
       last = &out.texture;
     };
     for (int k = 0; k < iterations; ++k) once(filter);
-    if (iterations > 0 && leaves_gaps(filter, frame, to.tiles.nearest())) {
+    if (iterations > 0 && leaves_gaps(filter, frame, nearest)) {
       LayerFilter closing = filter;
       closing.close_gaps = true;
       once(closing);
@@ -221,7 +225,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
       depth = smooth(filter, params.smoothing_iterations, *depth, to.depth_smooth);
     } else if (params.smoothing_iterations > 0) {
       const FlowSchedule schedule =
-          flow_schedule(filter, params.smoothing_iterations, frame, to.tiles.nearest());
+          flow_schedule(filter, params.smoothing_iterations, frame, nearest);
       // What is in the other two is not needed yet.
       pass.curvature_flow(filter, schedule, to.tiles, *depth, *depth,
                           {&to.depth_smooth, &to.between, &to.thickness_smooth});
@@ -233,7 +237,9 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
                        to.thickness_smooth);
   });
-  stage("normal", [&] { pass.normal(to.tiles, *depth, to.normal.framebuffer); });
+  stage("normal", [&] {
+    pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
+  });
   return {to.tiles, *depth, *thickness, to.normal.texture};
 }
 

@@ -29,7 +29,6 @@ FluidTiles::FluidTiles(int width, int height)
 
 void FluidTiles::find(const PointsView& positions, const Camera& camera, Real radius) {
   reached_.clear();
-  nearest_ = camera.far;
   const Eigen::Matrix4f view = camera.view();
   const float half_height = camera.half_height();
   const float half_width = half_height * static_cast<float>(width_) / static_cast<float>(height_);
@@ -51,8 +50,6 @@ void FluidTiles::find(const PointsView& positions, const Camera& camera, Real ra
     };
     const Span x = span(center.x(), half_width, width_, reached_.columns());
     const Span y = span(center.y(), half_height, height_, reached_.rows());
-    const bool seen = x.first <= x.last && y.first <= y.last;
-    if (seen) nearest_ = std::min(nearest_, near);
     for (int row = y.first; row <= y.last; ++row) {
       for (int column = x.first; column <= x.last; ++column) reached_.mark(column, row);
     }

@@ -17,8 +17,6 @@ class FluidTiles {
   FluidTiles(int width, int height);
   /// Finds the squares that spheres of a radius [m] can reach.
   void find(const PointsView& positions, const Camera& camera, Real radius);
-  /// Depth of the nearest sphere's front that may be seen, at least the near plane's [m].
-  [[nodiscard]] Real nearest() const { return nearest_; }
   /// Takes over squares that were found.
   void upload(const raster::Tiles& tiles);
   /// Draws these squares of the target; for programs with glsl/fluid_tiles.vert.
@@ -30,7 +28,6 @@ class FluidTiles {
   VertexArray array_;
   raster::Tiles reached_;
   GLsizei count_ = 0;
-  Real nearest_ = 0;
 };
 
 }  // namespace pbf

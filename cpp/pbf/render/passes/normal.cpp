@@ -10,9 +10,11 @@ Normal::Normal(const GlslSource& source)
 
 void Normal::operator()(const FluidTiles& tiles,
                         const Texture& depth,
+                        Real range,
                         const Framebuffer& out) const {
   program_.use();
   program_.set("u_values", 0);
+  program_.set("u_range", range);
   depth.bind(0);
   out.clear(0, {0, 0, 0, 0});
   tiles.draw();

@@ -12,7 +12,11 @@ class Normal {
  public:
   explicit Normal(const GlslSource& source);
   /// @param depth  affine depth   @param out  rgba32f: unit normal, 0 where there is no fluid
-  void operator()(const FluidTiles& tiles, const Texture& depth, const Framebuffer& out) const;
+  /// @param range  steps of depth higher than this are between surfaces, not of one [m]
+  void operator()(const FluidTiles& tiles,
+                  const Texture& depth,
+                  Real range,
+                  const Framebuffer& out) const;
 
  private:
   Program program_;

@@ -80,16 +80,6 @@ void Splats::bin(const Records& particles, const SplatView& view, int threads) {
   });
 }
 
-float Splats::nearest(const SplatView& view) const {
-  float nearest = view.far;
-  for (Index i = 0; i < centers_.size(); ++i) {
-    const TileBox& box = boxes_[static_cast<std::size_t>(i)];
-    const bool seen = box.first_column <= box.last_column;
-    if (seen) nearest = std::min(nearest, -centers_[i].z - view.radius);
-  }
-  return std::max(nearest, view.near);
-}
-
 void Splats::draw(const SplatView& view, Map& depth, Map& thickness, int threads) const {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   depth.begin(tiles_);

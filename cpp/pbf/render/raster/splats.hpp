@@ -19,8 +19,6 @@ class Splats {
   /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it
   /// @param thickness  [m]
   void draw(const SplatView& view, Map& depth, Map& thickness, int threads) const;
-  /// Depth of the nearest sprite's front that may be seen, at least the near plane's [m].
-  [[nodiscard]] float nearest(const SplatView& view) const;
   /// Those that sprites cover.
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
 

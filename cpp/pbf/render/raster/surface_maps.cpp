@@ -1,6 +1,7 @@
 #include "pbf/render/raster/surface_maps.hpp"
 
 #include "pbf/core/stopwatch.hpp"
+#include "pbf/render/nearest.hpp"
 #include "pbf/render/raster/curvature_flow.hpp"
 #include "pbf/render/raster/smooth.hpp"
 
@@ -22,6 +23,29 @@ void SurfaceMaps::stage(const char* name, F&& pass) {
   pass();
 }
 
+const Map* SurfaceMaps::smoothed(const LayerFilter& filter,
+                                 int iterations,
+                                 const FrameBlock& frame,
+                                 Real nearest,
+                                 const Map& values,
+                                 Map& between,
+                                 Map& out,
+                                 int threads) {
+  if (iterations == 0) return &values;
+  const Map* last = &values;
+  const auto once = [&](const LayerFilter& with) {
+    smooth(with, frame, tiles(), *last, depth_, between, out, threads);
+    last = &out;
+  };
+  for (int k = 0; k < iterations; ++k) once(filter);
+  if (leaves_gaps(filter, frame, nearest)) {
+    LayerFilter closing = filter;
+    closing.close_gaps = true;
+    once(closing);
+  }
+  return last;
+}
+
 void SurfaceMaps::find(const PointsView& positions,
                        const Camera& camera,
                        const RenderParams& params,
@@ -34,37 +58,22 @@ void SurfaceMaps::find(const PointsView& positions,
   });
   stage("bin", [&] { splats_.bin(crowding_.particles(), view, threads); });
   stage("sphere_depth", [&] { splats_.draw(view, depth_, thickness_, threads); });
-  const auto smoothed = [&](const LayerFilter& filter, int iterations, const Map& values,
-                            Map& between, Map& out) {
-    const Map* last = &values;
-    const auto once = [&](const LayerFilter& with) {
-      smooth(with, frame, tiles(), *last, depth_, between, out, threads);
-      last = &out;
-    };
-    for (int k = 0; k < iterations; ++k) once(filter);
-    if (iterations > 0 && leaves_gaps(filter, frame, splats_.nearest(view))) {
-      LayerFilter closing = filter;
-      closing.close_gaps = true;
-      once(closing);
-    }
-    return last;
-  };
-  smooth_depth_ = &depth_;
+  const Real nearest = nearest_front(positions, params.radius, frame, threads);
   stage("depth_smooth", [&] {
     const LayerFilter filter = depth_filter(params);
     const int iterations = params.smoothing_iterations;
-    if (filter.kind != Smoothing::curvature_flow) {
-      smooth_depth_ = smoothed(filter, iterations, depth_, depth_between_, depth_out_);
-    } else if (iterations > 0) {
-      const FlowSchedule schedule = flow_schedule(filter, iterations, frame, splats_.nearest(view));
-      curvature_flow(filter, schedule, frame, tiles(), depth_, depth_,
-                     {&depth_out_, &depth_between_, &depth_third_}, threads);
+    if (filter.kind == Smoothing::curvature_flow && iterations > 0) {
+      curvature_flow(filter, flow_schedule(filter, iterations, frame, nearest), frame, tiles(),
+                     depth_, depth_, {&depth_out_, &depth_between_, &depth_third_}, threads);
       smooth_depth_ = &depth_out_;
+    } else {
+      smooth_depth_ =
+          smoothed(filter, iterations, frame, nearest, depth_, depth_between_, depth_out_, threads);
     }
   });
   stage("thickness_smooth", [&] {
-    smooth_thickness_ = smoothed(thickness_filter(params), params.thickness_iterations, thickness_,
-                                 thickness_between_, thickness_out_);
+    smooth_thickness_ = smoothed(thickness_filter(params), params.thickness_iterations, frame,
+                                 nearest, thickness_, thickness_between_, thickness_out_, threads);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include "pbf/render/camera.hpp"
 #include "pbf/render/crowding.hpp"
+#include "pbf/render/layer_filter.hpp"
 #include "pbf/render/params.hpp"
 #include "pbf/render/raster/map.hpp"
 #include "pbf/render/raster/splats.hpp"
@@ -37,13 +38,22 @@ class SurfaceMaps {
  private:
   template <class F>
   void stage(const char* name, F&& pass);
+  /// The iterations of a separable filter, and a last one if it leaves gaps.
+  const Map* smoothed(const LayerFilter& filter,
+                      int iterations,
+                      const FrameBlock& frame,
+                      Real nearest,
+                      const Map& values,
+                      Map& between,
+                      Map& out,
+                      int threads);
 
   Crowding crowding_;
   Splats splats_;
   Map depth_, thickness_;
   Map depth_between_, thickness_between_;
   Map depth_out_, thickness_out_;
-  Map depth_third_;  // curvature flow needs two stages before the next
+  Map depth_third_;  // of curvature flow
   const Map* smooth_depth_ = &depth_;
   const Map* smooth_thickness_ = &thickness_;
   std::vector<std::pair<std::string, double>> milliseconds_;
