@@ -15,6 +15,8 @@ add_library(pbf_render STATIC
   pbf/gl/program.cpp
   pbf/gl/draw.cpp
   pbf/render/camera.cpp
+  pbf/render/checks.cpp
+  pbf/render/cpu_renderer.cpp
   pbf/render/params.cpp
   pbf/render/crowding.cpp
   pbf/render/layer_filter.cpp
@@ -40,6 +42,7 @@ add_library(pbf_render STATIC
   pbf/render/raster/tiles.cpp
   pbf/render/raster/map.cpp
   pbf/render/raster/surroundings.cpp
+  pbf/render/raster/normal.cpp
   pbf/render/raster/smooth.cpp
   pbf/render/raster/splat_kernels.cpp
   pbf/render/raster/splats.cpp

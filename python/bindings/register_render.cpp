@@ -1,12 +1,14 @@
 #include "pbf/gl/egl_cures.hpp"
 #include "pbf/gl/egl_device.hpp"
 #include "pbf/gl/egl_turn.hpp"
+#include "pbf/render/cpu_renderer.hpp"
 #include "pbf/render/fluid_renderer.hpp"
 
 #include "bind_params.hpp"
 #include "numpy_io.hpp"
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <unistd.h>
 
 namespace pbf {
@@ -88,23 +90,56 @@ class Renderer {
     const auto view = points_view(array);
     return with_lock([&] { return f(view); });
   }
-  FluidRenderer& open() {
-    if (renderer_ == nullptr) {
+  void require_open() const {
+    if (renderer_ == nullptr && cpu_ == nullptr) {
       throw GlError("the renderer is closed; make a new one");
     }
+  }
+  FluidRenderer& open() {
+    require_open();
+    if (renderer_ == nullptr) {
+      throw RendererUnavailable(
+          "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make the "
+          "renderer without backend");
+    }
     return *renderer_;
+  }
+  const RenderReport& last_report() const {
+    require_open();
+    return cpu_ ? cpu_->report() : renderer_->report();
   }
 
   const int process_ = getpid();
   std::mutex lock_;
+  // One of these.
   std::unique_ptr<FluidRenderer> renderer_;
+  std::unique_ptr<CpuRenderer> cpu_;
   EglContext::Info info_;  ///< of the context: known without a turn at it, and after close() too
   std::string description_;
 
  public:
-  Renderer(int width, int height, const std::string& device, bool timed) {
+  Renderer(int width,
+           int height,
+           const std::string& device,
+           bool timed,
+           const std::optional<std::string>& backend) {
+    if (backend && *backend != "egl" && *backend != "cpu") {
+      throw InvalidParameter("backend = \"" + *backend +
+                             "\": must be \"egl\", \"cpu\" or None, which chooses");
+    }
     const WithoutGil unlocked;  // looking for a device takes a while
-    renderer_ = std::make_unique<FluidRenderer>(width, height, device);
+    if (backend == "cpu") {
+      cpu_ = std::make_unique<CpuRenderer>(width, height);
+      cpu_->set_timed(timed);
+      description_ = "C++ on the processor, no OpenGL";
+      info_.renderer = description_;
+      info_.platform = "processor";
+      info_.choice = "asked for";
+      info_.software = info_.asked_for = true;
+      return;
+    }
+    const SurfacePasses passes = backend ? SurfacePasses::glsl : SurfacePasses::automatic;
+    renderer_ = std::make_unique<FluidRenderer>(width, height, device, passes);
     renderer_->set_timed(timed);
     info_ = renderer_->context().info();
     description_ = renderer_->context().description();
@@ -126,7 +161,9 @@ class Renderer {
   }
 
   py::dict layers(py::handle positions, const Camera& camera, const RenderParams& params) {
-    Layers layers = draw(positions, [&](PointsView x) { return open().layers(x, camera, params); });
+    Layers layers = draw(positions, [&](PointsView x) {
+      return cpu_ ? cpu_->layers(x, camera, params) : open().layers(x, camera, params);
+    });
     return py::dict("depth"_a = pixels_to_numpy(std::move(layers.depth)),
                     "depth_smooth"_a = pixels_to_numpy(std::move(layers.depth_smooth)),
                     "thickness"_a = pixels_to_numpy(std::move(layers.thickness)),
@@ -136,7 +173,7 @@ class Renderer {
 
   py::dict report() {
     py::dict milliseconds;
-    const RenderReport report = with_lock([&] { return open().report(); });
+    const RenderReport report = with_lock([&] { return last_report(); });
     for (const auto& [name, time] : report.milliseconds) milliseconds[name.c_str()] = time;
     return py::dict("particles"_a = report.particles, "milliseconds"_a = milliseconds);
   }
@@ -155,11 +192,14 @@ class Renderer {
       static_cast<void>(renderer_.release());  // its names are the parent's
       return;
     }
-    with_lock([&] { renderer_.reset(); });
+    with_lock([&] {
+      renderer_.reset();
+      cpu_.reset();
+    });
   }
   bool closed() {
-    if (getpid() != process_) return renderer_ == nullptr;
-    return with_lock([&] { return renderer_ == nullptr; });
+    if (getpid() != process_) return renderer_ == nullptr && cpu_ == nullptr;
+    return with_lock([&] { return renderer_ == nullptr && cpu_ == nullptr; });
   }
 };
 
@@ -209,8 +249,8 @@ WrongType
       .def_property_readonly("color",
                              [](const Mesh& self) { return PythonForm<Vec3>::out(self.color()); });
   py::class_<Renderer>(m, "Renderer", "Draws particles as a fluid, without a screen.")
-      .def(py::init<int, int, std::string, bool>(), "width"_a, "height"_a, "device"_a = "",
-           "timed"_a = false)
+      .def(py::init<int, int, std::string, bool, const std::optional<std::string>&>(), "width"_a,
+           "height"_a, "device"_a = "", "timed"_a = false, "backend"_a = py::none())
       .def("render", &Renderer::render, "positions"_a, "camera"_a, "params"_a, "meshes"_a)
       .def("set_environment_map", &Renderer::set_environment_map, "environment_map"_a)
       .def("layers", &Renderer::layers, "positions"_a, "camera"_a, "params"_a)

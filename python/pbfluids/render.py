@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, TypedDict, cast
+from typing import TYPE_CHECKING, Literal, TypedDict, cast
 
 from pbfluids import _core
 from pbfluids._core import Camera, Mesh, RenderParams
@@ -52,6 +52,12 @@ class Renderer:
         See :meth:`set_environment_map`.
     timed : bool, optional
         Measure each pass (see :attr:`report`). Waiting for each costs a little.
+    backend : {"egl", "cpu"}, optional
+        Who draws. Not given: OpenGL, with the passes up to the smoothed surface in C++ where the
+        driver is Mesa's software one, which they outrun many times over. ``"egl"``: OpenGL alone,
+        whatever the driver. ``"cpu"``: C++ alone, for machines without OpenGL; there are
+        :meth:`layers` then, :meth:`render` raises RendererUnavailable. Layers agree within the
+        rounding of their arithmetic.
 
     Raises
     ------
@@ -59,7 +65,7 @@ class Renderer:
         If the size cannot be drawn, or ``device`` means nothing.
     RendererUnavailable
         If there is no OpenGL 3.3 here, or not on the device asked for; the message lists every
-        attempt and the cure.
+        attempt and the cure. Not with ``backend="cpu"``, which needs none.
 
     Warns
     -----
@@ -81,8 +87,10 @@ class Renderer:
         device: int | str | None = None,
         environment_map: ArrayLike | None = None,
         timed: bool = False,
+        backend: Literal["egl", "cpu"] | None = None,
     ) -> None:
-        self._core = _core.Renderer(width, height, "" if device is None else str(device), timed)
+        wish = "" if device is None else str(device)
+        self._core = _core.Renderer(width, height, wish, timed, backend)
         if environment_map is not None:
             self._core.set_environment_map(environment_map)
         self._size = (width, height)

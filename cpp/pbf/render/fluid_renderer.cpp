@@ -1,5 +1,6 @@
 #include "pbf/render/fluid_renderer.hpp"
 
+#include "pbf/render/checks.hpp"
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
@@ -20,14 +21,6 @@
 namespace pbf {
 namespace {
 
-int checked_side(int side, const char* name) {
-  if (side < 1) {
-    throw InvalidParameter(std::string(name) + " = " + std::to_string(side) +
-                           " pixels: must be at least 1");
-  }
-  return side;
-}
-
 void require_drawable(int width, int height, int factor) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
@@ -37,15 +30,6 @@ void require_drawable(int width, int height, int factor) {
                                           : "height = " + std::to_string(height)) +
                            " pixels: this driver draws at most " + std::to_string(limit) +
                            (factor > 1 ? " with supersampling = " + std::to_string(factor) : ""));
-  }
-}
-
-void require_finite(const PointsView& positions) {
-  for (Index i = 0; i < positions.cols(); ++i) {
-    if (!positions.col(i).allFinite()) {
-      throw InvalidParameter("positions: particle " + std::to_string(i) +
-                             " is not finite; every coordinate must be");
-    }
   }
 }
 

@@ -6,12 +6,11 @@
 #include "pbf/render/image.hpp"
 #include "pbf/render/mesh.hpp"
 #include "pbf/render/params.hpp"
+#include "pbf/render/report.hpp"
 
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace pbf {
 
@@ -29,13 +28,6 @@ enum class SurfacePasses {
   cpp,
 };
 class Texture;
-
-/// What drawing the last picture took.
-struct RenderReport {
-  Index particles = 0;
-  /// Each pass in order and its time [ms]. Empty unless timing was asked for.
-  std::vector<std::pair<std::string, double>> milliseconds;
-};
 
 /// Draws particles as a fluid: screen-space rendering in six passes [vdL09].
 ///

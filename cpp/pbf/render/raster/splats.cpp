@@ -3,6 +3,8 @@
 #include "pbf/core/parallel.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace pbf::raster {
 namespace {
@@ -10,7 +12,8 @@ namespace {
 /// Particles that are sorted at a time.
 constexpr Index kBlock = 1 << 14;
 
-/// Sprites that cover more tiles are not sorted: their copies would fill the memory.
+/// Sprites that cover more tiles are not sorted, but drawn in all: their copies would fill the
+/// memory.
 constexpr int kMostTiles = 64;
 
 bool is_large(const TileBox& box) {
@@ -71,6 +74,7 @@ void Splats::bin(const Records& particles, const SplatView& view, int threads) {
     }
   }
   starts_[tiles] = sum;
+  find_large();
   binned_.resize(sum);
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     std::uint32_t* place = places_.data() + static_cast<std::size_t>(first / kBlock) * tiles;
@@ -80,6 +84,24 @@ void Splats::bin(const Records& particles, const SplatView& view, int threads) {
   });
 }
 
+void Splats::find_large() {
+  large_.clear();
+  TileBox all{std::numeric_limits<std::int16_t>::max(), -1,
+              std::numeric_limits<std::int16_t>::max(), -1};
+  for (Index i = 0; i < centers_.size(); ++i) {
+    const TileBox& box = boxes_[static_cast<std::size_t>(i)];
+    if (!is_large(box)) continue;
+    large_.push_back(centers_[i]);
+    all = {std::min(all.first_column, box.first_column), std::max(all.last_column, box.last_column),
+           std::min(all.first_row, box.first_row), std::max(all.last_row, box.last_row)};
+  }
+  for (int row = all.first_row; row <= all.last_row; ++row) {
+    for (int column = all.first_column; column <= all.last_column; ++column) {
+      tiles_.mark(column, row);
+    }
+  }
+}
+
 void Splats::draw(const SplatView& view, Map& depth, Map& thickness, int threads) const {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   depth.begin(tiles_);
@@ -87,11 +109,22 @@ void Splats::draw(const SplatView& view, Map& depth, Map& thickness, int threads
   const std::vector<Tile> tiles = tiles_.list();
   parallel_chunks(static_cast<Index>(tiles.size()), threads, 1, [&](Index first, Index) {
     const Tile tile = tiles[static_cast<std::size_t>(first)];
-    const int number = tile.y / kTileSide * tiles_.columns() + tile.x / kTileSide;
-    const std::uint32_t start = starts_[static_cast<std::size_t>(number)];
-    const std::uint32_t end = starts_[static_cast<std::size_t>(number) + 1];
-    kernels.draw(binned_.data() + start, end - start, view, tile, depth.row(tile.y) + tile.x,
-                 thickness.row(tile.y) + tile.x, depth.pitch());
+    const auto number = static_cast<std::size_t>(tile.y / kTileSide * tiles_.columns()) +
+                        static_cast<std::size_t>(tile.x / kTileSide);
+    const auto draw = [&](const Record* sprites, Index count) {
+      kernels.draw(sprites, count, view, tile, depth.row(tile.y) + tile.x,
+                   thickness.row(tile.y) + tile.x, depth.pitch());
+    };
+    const Record* own = binned_.data() + starts_[number];
+    const auto count = static_cast<Index>(starts_[number + 1] - starts_[number]);
+    if (large_.empty()) {
+      draw(own, count);
+      return;
+    }
+    std::vector<Record> all(large_);
+    all.insert(all.end(), own, own + count);
+    all.resize(all.size() + kMostLanes);
+    draw(all.data(), static_cast<Index>(all.size()) - kMostLanes);
   });
 }
 

@@ -23,12 +23,14 @@ class Splats {
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
 
  private:
+  void find_large();
+
   Tiles tiles_{1, 1};
   Records centers_, binned_;
   std::vector<TileBox> boxes_;
   std::vector<std::uint32_t> places_;  // of each tile in each block of particles
   std::vector<std::uint32_t> starts_;  // in binned_, of each tile and the end
-  Records large_;                      // drawn in every tile
+  std::vector<Record> large_;          // drawn in every tile
 };
 
 SplatView splat_view(const FrameBlock& frame, const RenderParams& params);

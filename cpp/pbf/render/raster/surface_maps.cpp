@@ -56,8 +56,10 @@ void SurfaceMaps::find(const PointsView& positions,
   stage("crowding", [&] {
     crowding_.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0, threads);
   });
-  stage("bin", [&] { splats_.bin(crowding_.particles(), view, threads); });
-  stage("sphere_depth", [&] { splats_.draw(view, depth_, thickness_, threads); });
+  stage("sphere_depth", [&] {
+    splats_.bin(crowding_.particles(), view, threads);
+    splats_.draw(view, depth_, thickness_, threads);
+  });
   const Real nearest = nearest_front(positions, params.radius, frame, threads);
   stage("depth_smooth", [&] {
     const LayerFilter filter = depth_filter(params);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "pbf/render/camera.hpp"
+#include "pbf/render/image.hpp"
+#include "pbf/render/raster/map.hpp"
+
+namespace pbf::raster {
+
+/// The pass normal in C++: unit normals in eye space, 0 where there is no fluid.
+/// @param depth  affine depth
+/// @param range  steps of depth higher than this are between surfaces, not of one [m]
+Pixels<float> normal(
+    const Map& depth, const Tiles& tiles, const Camera& camera, Real range, int threads);
+
+// Maps as layers, row 0 on top.
+Pixels<float> pixels(const Map& map);
+/// Affine depth as depth [m], 0 where there is no fluid.
+Pixels<float> depth_pixels(const Map& map, const Camera& camera);
+
+}  // namespace pbf::raster

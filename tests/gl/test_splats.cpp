@@ -1,0 +1,89 @@
+#include "pbf/core/isa.hpp"
+#include "pbf/render/raster/splats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
+using namespace pbf;
+using namespace pbf::raster;
+
+namespace {
+
+constexpr int kWidth = 200, kHeight = 150;
+
+struct Drawn {
+  std::vector<float> depth, thickness;
+  bool operator==(const Drawn&) const = default;
+};
+
+Drawn draw(const Records& particles, const RenderParams& params, int threads) {
+  Camera camera;
+  camera.eye = {0, 0, 0};
+  camera.target = {0, 0, -1};
+  const SplatView view = splat_view(frame_block(camera, kWidth, kHeight), params);
+  Splats splats;
+  Map depth(kWidth, kHeight, kNothing), thickness(kWidth, kHeight, 0);
+  splats.bin(particles, view, threads);
+  splats.draw(view, depth, thickness, threads);
+  Drawn result;
+  for (int y = 0; y < kHeight; ++y) {
+    result.depth.insert(result.depth.end(), depth.row(y), depth.row(y) + kWidth);
+    result.thickness.insert(result.thickness.end(), thickness.row(y), thickness.row(y) + kWidth);
+  }
+  return result;
+}
+
+Records cloud(Index n) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> anywhere(-1, 1);
+  Records particles(n);
+  for (Index i = 0; i < n; ++i) {
+    particles[i] = {anywhere(random), anywhere(random), -2 + 2.2F * anywhere(random),
+                    0.5F + 0.5F * anywhere(random)};
+  }
+  return particles;
+}
+
+}  // namespace
+
+TEST_CASE("splats: the same bits for any number of threads") {
+  RenderParams params;
+  params.radius = 0.06F;
+  params.drop_radius = 0.03F;
+  const Records particles = cloud(40000);
+  const Drawn expected = draw(particles, params, 1);
+  CHECK(std::ranges::count(expected.depth, kNothing) < kWidth * kHeight / 2);
+  for (const int threads : {2, 3, 7}) CHECK(draw(particles, params, threads) == expected);
+}
+
+TEST_CASE("splats: every instruction set draws the same bits") {
+  RenderParams params;
+  params.radius = 0.06F;
+  const Records particles = cloud(3000);
+  const Drawn expected = draw(particles, params, 2);
+  for (const Isa isa : usable_isas()) {
+    setenv("PBF_ISA", isa_name(isa), 1);
+    CAPTURE(isa_name(isa));
+    CHECK(draw(particles, params, 2) == expected);
+  }
+  unsetenv("PBF_ISA");
+}
+
+TEST_CASE("splats: sprites of many tiles count as small ones do") {
+  // As many tiles as make a sprite large, or one less: the sum of both is that of drawing each.
+  RenderParams params;
+  params.radius = 1.2F;
+  params.drop_radius = 0.05F;
+  Records large(1), small(1), both(2);
+  both[0] = large[0] = {0.1F, 0, -2, 1};
+  both[1] = small[0] = {-0.3F, 0.2F, -1, 0};
+  const Drawn one = draw(large, params, 1), other = draw(small, params, 1);
+  const Drawn together = draw(both, params, 1);
+  for (std::size_t k = 0; k < one.depth.size(); ++k) {
+    CHECK(together.depth[k] == std::max(one.depth[k], other.depth[k]));
+    CHECK(together.thickness[k] == one.thickness[k] + other.thickness[k]);
+  }
+}
