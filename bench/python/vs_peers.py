@@ -296,13 +296,13 @@ def tables(found: dict[str, Any]) -> str:
     )
 
 
-def update(page: Path, text: str) -> None:
+def update(page: Path, text: str, mark: str = BEGIN, end_mark: str = END) -> None:
     """Put the tables between the page's marks."""
     before = page.read_text(encoding="utf-8")
-    head, begin, rest = before.partition(BEGIN)
-    _, end, tail = rest.partition(END)
+    head, begin, rest = before.partition(mark)
+    _, end, tail = rest.partition(end_mark)
     if not (begin and end):
-        raise SystemExit(f"{page} has no {BEGIN} … {END} to put the tables between")
+        raise SystemExit(f"{page} has no {mark} … {end_mark} to put the tables between")
     page.write_text(f"{head}{begin}\n{text}\n{end}{tail}", encoding="utf-8")
 
 
