@@ -62,6 +62,12 @@ const Motion& dam_break_in_motion(Index n) {
   return motions.emplace(n, std::move(motion)).first->second;
 }
 
+}  // namespace
+
+const Points& dam_break_positions(Index n) { return dam_break_in_motion(n).x; }
+
+namespace {
+
 /// Compares with the first run of as many particles.
 bool has_the_same_bits(const Simulation& simulation) {
   static std::map<Index, std::uint64_t> hashes;

@@ -28,4 +28,7 @@ bool any_wrong_result();
 /// The rows of a benchmark: particles × threads, and the number of steps.
 void rows(benchmark::internal::Benchmark* benchmark);
 
+/// The dam break in motion, of about n particles a spacing of 2 cm apart [m].
+const Points& dam_break_positions(Index n);
+
 }  // namespace pbf::bench

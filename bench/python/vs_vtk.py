@@ -173,11 +173,12 @@ class Child:
 
 def simulated(side: int, folder: Path) -> tuple[Path, float]:
     """Simulate a quarter of a second of the dam break, once; give the file and the spacing."""
-    case = DamBreak(side=side, spacing=0.78 / side, threads=0)
+    spacing = 0.78 / side
+    case = DamBreak(side=side, spacing=spacing, time_step=spacing / 4.8, threads=0)
     path = folder / f"dam_break_{side**3}.npy"
     if not path.exists():
         solver = PBFluids(case)
-        for _ in range(60):
+        for _ in range(round(0.25 / case.time_step)):
             solver.step()
         folder.mkdir(parents=True, exist_ok=True)
         np.save(path, solver.positions())
