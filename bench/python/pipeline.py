@@ -146,6 +146,8 @@ def main() -> int:
     run_once(overlapped, scene, options)  # warms up shader cache, codec and files
     for _ in range(options.repeats):
         pairs.append((run_once(turns, scene, options), run_once(overlapped, scene, options)))
+    in_stages = sum(turns.seconds.values())
+    turns.seconds["start and end"] = sum(before["wall"] for before, _ in pairs) - in_stages
 
     particles = len(scene.particles()[0])
     print(

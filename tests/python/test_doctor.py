@@ -8,7 +8,7 @@ import os
 import pytest
 
 import pbfluids as pbf
-from pbfluids import diagnosis
+from pbfluids import _core, diagnosis
 from pbfluids.cli import main
 from pbfluids.errors import RendererUnavailable
 
@@ -27,6 +27,36 @@ def test_the_doctor_says_what_is_installed():
     assert pbf.__version__ in text
     assert f"{len(os.sched_getaffinity(0))}, " in text
     assert "rendering        yes" in text
+
+
+@pytest.mark.gl
+def test_the_doctor_shows_the_devices_the_choice_and_why(monkeypatch):
+    found = diagnosis.examine()
+    names = [device["name"] for device in found.egl_devices]
+    assert [device["index"] for device in found.egl_devices] == list(range(len(names)))
+    assert f"EGL devices      {', '.join(names) or 'none'}\n" in found.text()
+    assert found.renderer["choice"]
+    assert f"choice           {found.renderer['choice']}\n" in found.text()
+    monkeypatch.setenv("PBF_EGL_DEVICE", "surfaceless")
+    assert "choice           asked for by PBF_EGL_DEVICE = surfaceless\n" in pbf.doctor()
+    monkeypatch.setenv("PBF_EGL_DEVICE", "gpu")
+    wrong = diagnosis.examine()
+    assert not wrong.can_render
+    assert "PBF_EGL_DEVICE = gpu: must be the index" in wrong.text()
+    assert wrong.egl_devices == found.egl_devices
+
+
+@pytest.mark.gl
+def test_the_doctor_tells_of_a_gpu_beside_software_and_warns_nobody(monkeypatch):
+    monkeypatch.setattr(_core, "visible_gpus", lambda: ["/dev/dri/renderD128"])
+    assert "GPUs             /dev/dri/renderD128\n" in pbf.doctor()  # warnings are errors here
+
+
+def test_the_doctor_lists_the_instruction_sets_that_can_be_used(no_renderer):
+    usable = _core.instruction_sets()
+    assert f"instruction sets {', '.join(usable)}\n" in pbf.doctor()
+    assert diagnosis.examine().build["instruction_sets"] == usable
+    assert diagnosis.examine().build["instruction_set"] in usable
 
 
 @pytest.mark.gl

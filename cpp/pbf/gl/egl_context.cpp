@@ -215,15 +215,16 @@ EglContext::Current::Current(const EglContext& context) : own_display_(context.d
   context_ = eglGetCurrentContext();
   if (eglMakeCurrent(own_display_, context.surface_, context.surface_, context.context_) == 0) {
     const std::string error = egl_error_text();
+    // A failure across drivers may have taken away what was current before.
+    if (context_ != nullptr) eglMakeCurrent(display_, draw_, read_, context_);
     eglBindAPI(api_);
     throw GlError("the OpenGL context cannot be made current: " + error);
   }
 }
 
 EglContext::Current::~Current() {
-  if (context_ != nullptr) {
-    eglMakeCurrent(display_, draw_, read_, context_);
-  } else {
+  // What was current may have been destroyed meanwhile; then nothing is.
+  if (context_ == nullptr || eglMakeCurrent(display_, draw_, read_, context_) == 0) {
     eglMakeCurrent(own_display_, nullptr, nullptr, nullptr);
   }
   eglBindAPI(api_);
