@@ -38,7 +38,7 @@ def params(kind: str, **fields: Any) -> pbf.RenderParams:
 
 
 def jittered(lower: tuple[float, ...], upper: tuple[float, ...]) -> Array:
-    """Fluid is no lattice: a fifth of the distance to and fro."""
+    """Fluid is no lattice: shaken by a fifth of the distance."""
     x = pbf.block(lower, upper, spacing=D)
     return x + np.random.default_rng(1).uniform(-0.2 * D, 0.2 * D, x.shape)
 

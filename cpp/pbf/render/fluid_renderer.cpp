@@ -49,16 +49,19 @@ void upload(const raster::Map& map, const Texture& texture) {
 
 /// Compiled once. Which of the two ways depth and thickness come about is the driver's ability.
 struct FluidRenderer::Passes {
-  explicit Passes(bool one_pass)
+  Passes(bool one_pass, bool in_cpp)
       : sphere_depth(glsl_source, one_pass),
-        thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)) {}
+        thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)),
+        smooth(in_cpp ? nullptr : std::make_unique<Smooth>(glsl_source)),
+        curvature_flow(in_cpp ? nullptr : std::make_unique<CurvatureFlow>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
   Crowding crowding;
   Sprites sprites;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
-  Smooth smooth{glsl_source};
-  CurvatureFlow curvature_flow{glsl_source};
+  // Compiling takes longer than a frame: not what the C++ passes do.
+  std::unique_ptr<Smooth> smooth;
+  std::unique_ptr<CurvatureFlow> curvature_flow;
   Normal normal{glsl_source};
   Composite composite{glsl_source};
   Resolve resolve{glsl_source};
@@ -98,9 +101,9 @@ FluidRenderer::FluidRenderer(int width,
       context_(device) {
   const auto current = context_.make_current();
   require_drawable(width, height, 1);
-  auto passes = std::make_unique<Passes>(context_.has_version(4, 0));
   const bool outrun = context_.info().software;
   in_cpp_ = surface == SurfacePasses::cpp || (surface == SurfacePasses::automatic && outrun);
+  auto passes = std::make_unique<Passes>(context_.has_version(4, 0), in_cpp_);
   prepare_targets(1);
   require_no_gl_error();
   passes_ = std::move(passes);
@@ -190,8 +193,8 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                           const Target& out) {
     const Texture* last = &values;
     const auto once = [&](const LayerFilter& with) {
-      pass.smooth(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
-                  to.between.texture, out.framebuffer);
+      (*pass.smooth)(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
+                     to.between.texture, out.framebuffer);
       last = &out.texture;
     };
     for (int k = 0; k < iterations; ++k) once(filter);
@@ -211,8 +214,8 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
       const FlowSchedule schedule =
           flow_schedule(filter, params.smoothing_iterations, frame, nearest);
       // What is in the other two is not needed yet.
-      pass.curvature_flow(filter, schedule, to.tiles, *depth, *depth,
-                          {&to.depth_smooth, &to.between, &to.thickness_smooth});
+      (*pass.curvature_flow)(filter, schedule, to.tiles, *depth, *depth,
+                             {&to.depth_smooth, &to.between, &to.thickness_smooth});
       depth = &to.depth_smooth.texture;
     }
   });
