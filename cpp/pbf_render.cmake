@@ -21,6 +21,8 @@ add_library(pbf_render STATIC
   pbf/render/crowding_kernels.cpp
   pbf/render/sun_shadow.cpp
   pbf/render/flow_schedule.cpp
+  pbf/render/mesh.cpp
+  pbf/render/environment_map.cpp
   pbf/render/frame_block.cpp
   pbf/render/glsl_source.cpp
   pbf/render/read_back.cpp
@@ -31,6 +33,8 @@ add_library(pbf_render STATIC
   pbf/render/passes/smooth.cpp
   pbf/render/passes/curvature_flow.cpp
   pbf/render/passes/normal.cpp
+  pbf/render/passes/environment.cpp
+  pbf/render/passes/opaque_meshes.cpp
   pbf/render/passes/composite.cpp
   pbf/render/raster/tiles.cpp
   pbf/render/raster/map.cpp
@@ -70,6 +74,8 @@ pbf_embed_glsl(pbf_render
   environment.glsl
   display.glsl
   background.frag
+  opaque_meshes.vert
+  opaque_meshes.frag
   composite.frag
   resolve.frag
   tank_edges.vert

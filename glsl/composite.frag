@@ -3,6 +3,10 @@
 uniform sampler2D u_depth;
 uniform sampler2D u_thickness;
 uniform sampler2D u_normal;
+#ifdef MESHES
+uniform sampler2D u_mesh_light;    // linear
+uniform sampler2D u_mesh_depth;    // affine
+#endif
 uniform vec3 u_absorption;         // [1/m]
 uniform vec3 u_scatter;            // color of deep fluid
 uniform float u_refractive_index;
@@ -50,6 +54,7 @@ struct Ray {
   vec3 at;         // world space [m]
   vec3 direction;  // unit vector
   float way;       // length in the fluid so far [m]
+  vec3 first;      // direction behind the surface
 };
 
 // On through the fluid to the floor, or out through a wall of the tank; a wall that it meets too
@@ -72,22 +77,44 @@ void follow_to_wall_or_floor(inout Ray ray) {
 }
 
 // The ray from a point of the surface to what is seen through the fluid.
-Ray refracted(vec3 position, vec3 view, vec3 n, float thickness) {
+// @param to_mesh  length of the straight way to a mesh [m]
+Ray refracted(vec3 position, vec3 view, vec3 n, float thickness, float to_mesh) {
   float eta = 1.0 / u_refractive_index;
-  Ray bound = Ray(position, to_world(refract(view, n, eta)), 0.0);
+  vec3 once = to_world(refract(view, n, eta));
+  vec3 twice = to_world(refract(view, n, eta * eta));
+  Ray bound = Ray(position, once, 0.0, once);
   follow_to_wall_or_floor(bound);
   // Or out at a free surface: a drop's far side bends the ray once more by as much.
-  Ray free = Ray(position, to_world(refract(view, n, eta * eta)), thickness);
   // Which of them, tells how much of the straight way to wall or floor is fluid.
   vec3 straight = to_world(view);
   vec3 outward;
   float to_end = min(distance_to_floor(position, straight),
                      distance_to_wall(position, straight, outward));
+  to_end = min(to_end, to_mesh);
   float is_bound = smoothstep(0.6, 0.9, thickness / max(to_end, 1e-3 * u_tile));
-  return Ray(mix(free.at, bound.at, is_bound),
-             normalize(mix(free.direction, bound.direction, is_bound)),
-             mix(free.way, bound.way, is_bound));
+  return Ray(mix(position, bound.at, is_bound), normalize(mix(twice, bound.direction, is_bound)),
+             mix(thickness, bound.way, is_bound), normalize(mix(twice, once, is_bound)));
 }
+
+#ifdef MESHES
+// Where a ray from a point in eye space meets a mesh, as far as the picture knows. What stands
+// nearer than the point is nothing that it can meet.
+bool meets_mesh(vec3 p, vec3 direction, inout float way, out vec3 light) {
+  float miss = 0.0;
+  bool meets = direction.z < -0.01;
+  for (int k = 0; k < 4; ++k) {
+    ivec2 at = ivec2(clamp(pixel_of(p + way * direction), vec2(0.0), u_size.xy - 1.0));
+    float a = texelFetch(u_mesh_depth, at, 0).r;
+    float deeper = depth_of(a) + p.z;
+    meets = meets && is_surface(a) && deeper > 0.0;
+    light = texelFetch(u_mesh_light, at, 0).rgb;
+    float corrected = deeper / -direction.z;
+    miss = abs(corrected - way);
+    way = meets ? corrected : way;
+  }
+  return meets && miss < 0.1 * way;
+}
+#endif
 
 // Light from the surface, and how much of that of a transparent background comes through.
 struct Shade {
@@ -95,14 +122,22 @@ struct Shade {
   vec3 clear;
 };
 
-Shade fluid(vec3 p, vec3 view, vec3 n, float thickness) {
+Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh) {
   vec3 position = u_eye + to_world(p);
   n = upright_at_floor(n, position);
   float mirrored = fresnel(clamp(-dot(view, n), 0.0, 1.0), u_refractive_index);
   vec3 mirror = to_world(reflect(view, n));
-  vec3 reflection = environment(MIRRORED(mirror), position, mirror, -p.z, SPREAD).rgb;
-  Ray ray = refracted(position, view, n, thickness);
-  vec4 behind = environment(BACKDROP(ray.direction), ray.at, ray.direction, -p.z, SPREAD);
+  vec3 reflection = environment(MIRRORED(mirror, SPREAD), position, mirror, -p.z, SPREAD).rgb;
+  Ray ray = refracted(position, view, n, thickness, to_mesh);
+  vec4 behind = environment(BACKDROP(ray.direction, SPREAD), ray.at, ray.direction, -p.z, SPREAD);
+#ifdef MESHES
+  vec3 light;
+  float way = min(thickness, to_mesh);
+  if (meets_mesh(p, mat3(u_view) * ray.first, way, light)) {
+    behind = vec4(light, 1.0);
+    ray.way = min(ray.way, way);
+  }
+#endif
   vec3 left = transmittance(ray.way);
   vec3 up_facing = to_world(n);
   float lit = 0.60 + 0.25 * dot(up_facing, u_up) + 0.35 * dot(up_facing, u_sun);
@@ -137,7 +172,15 @@ void main() {
   // Where a lone sprite thins out there is less than a particle: fading it takes the beads off the
   // outline.
   share *= smoothstep(0.1, 0.8, thickness / u_sprite_thickness);
-  Shade shade = fluid(p, view, n, thickness);
+  float to_mesh = 1e9;
+#ifdef MESHES
+  // Meshes hide the fluid behind them, and cut its thickness.
+  float mesh = texelFetch(u_mesh_depth, pixel, 0).r;
+  if (mesh > a) share = 0.0;
+  if (is_surface(mesh)) to_mesh = max((depth_of(mesh) + p.z) / -view.z, 0.0);
+  thickness = min(thickness, to_mesh);
+#endif
+  Shade shade = fluid(p, view, n, thickness, to_mesh);
   // One alpha for three channels: that of the clearest would let the colors of others through, so
   // the least clear one has it, and the rest is what background_color adds to the others.
   float clear = min(shade.clear.r, min(shade.clear.g, shade.clear.b));

@@ -3,7 +3,8 @@
 // an answer for every refracted and reflected ray, so nothing in front of the fluid can bleed in
 // and there are no halos.
 //
-// BACKDROP and MIRRORED name the function of a direction that is seen behind the fluid, and in it.
+// BACKDROP and MIRRORED name the function of a direction, and of the spread of rays about it in
+// pixels, that is seen behind the fluid, and in its surface.
 uniform vec3 u_up;              // unit vector
 uniform vec3 u_sun;             // unit vector towards the sun
 uniform vec3 u_background_color;
@@ -27,10 +28,25 @@ const vec3 ZENITH = vec3(0.08, 0.20, 0.42);
 const vec3 FLOOR = vec3(0.50, 0.50, 0.50);
 const vec3 SUN = vec3(1.0, 0.93, 0.80);
 
-vec4 nothing(vec3 direction) { return vec4(0.0); }
-vec4 plain(vec3 direction) { return vec4(u_background_color, 1.0); }
+#ifdef MAP
+uniform sampler2D u_map;   // once around from -u_floor_y over -u_floor_x, below to above
+uniform float u_map_width; // [texels]
 
-vec4 sky(vec3 direction) {
+// The map's mean over `spread` pixels of the picture.
+vec4 mapped(vec3 direction, float spread) {
+  float ahead = dot(direction, u_floor_y);
+  float right = dot(direction, u_floor_x);
+  float around = atan(right, ahead) / 6.2831853 + 0.5;
+  float above = 1.0 - acos(clamp(dot(direction, u_up), -1.0, 1.0)) / 3.1415927;
+  float texels = spread * u_map_width / (6.2831853 * pixels_per_meter(1.0));
+  return vec4(textureLod(u_map, vec2(around, above), log2(max(texels, 1.0))).rgb, 1.0);
+}
+#endif
+
+vec4 nothing(vec3 direction, float spread) { return vec4(0.0); }
+vec4 plain(vec3 direction, float spread) { return vec4(u_background_color, 1.0); }
+
+vec4 sky(vec3 direction, float spread) {
   float elevation = dot(direction, u_up);
   vec3 color = mix(HORIZON, ZENITH, 1.0 - exp(-2.2 * max(elevation, 0.0)));
   float glow = max(dot(direction, u_sun), 0.0);
@@ -40,12 +56,12 @@ vec4 sky(vec3 direction) {
 
 // Lights that only mirrors show: the sun's disc, softened, and a bright band of sky all around,
 // which draws waves as a studio's soft boxes draw glass.
-vec4 sky_with_lights(vec3 direction) {
+vec4 sky_with_lights(vec3 direction, float spread) {
   float off = 1.0 - dot(direction, u_sun);
   float elevation = dot(direction, u_up);
   float band = smoothstep(0.02, 0.45, elevation) * (1.0 - 0.6 * smoothstep(0.5, 0.9, elevation));
   vec3 sun = SUN * (60.0 * exp(-off * 700.0) + 5.0 * exp(-off * 40.0));
-  return sky(direction) + vec4(sun + vec3(1.1, 1.25, 1.4) * 1.6 * band, 0.0);
+  return sky(direction, spread) + vec4(sun + vec3(1.1, 1.25, 1.4) * 1.6 * band, 0.0);
 }
 
 // Share of lines of half width w, repeating with period 1, in [x - f, x + f].
@@ -115,5 +131,5 @@ vec3 to_world(vec3 v) { return transpose(mat3(u_view)) * v; }
 // What a viewing ray (eye space) meets if there is no fluid.
 vec4 seen(vec3 origin, vec3 direction) {
   vec3 d = to_world(direction);
-  return environment(BACKDROP(d), u_eye + to_world(origin), d, 0.0, 1.0);
+  return environment(BACKDROP(d, 1.0), u_eye + to_world(origin), d, 0.0, 1.0);
 }

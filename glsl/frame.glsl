@@ -50,5 +50,11 @@ vec3 ray_direction(vec2 pixel) {
 }
 vec3 eye_position(vec2 pixel, float d) { return ray_origin(pixel) + d * ray_direction(pixel); }
 
+// The point of the picture [pixels] where a point in eye space is seen.
+vec2 pixel_of(vec3 p) {
+  vec2 slope = u_size.z > 0.5 ? p.xy / -p.z : p.xy;
+  return (slope / u_lens.xy * 0.5 + 0.5) * u_size.xy;
+}
+
 // Pixels that a length of one meter covers at a depth.
 float pixels_per_meter(float d) { return u_size.z > 0.5 ? u_size.w / d : u_size.w; }

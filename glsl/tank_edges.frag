@@ -2,6 +2,9 @@
 // linear, multiplied by alpha, to be blended over the picture. Behind fluid it is seen through it.
 uniform sampler2D u_depth;
 uniform sampler2D u_thickness;
+#ifdef MESHES
+uniform sampler2D u_mesh_depth;  // affine
+#endif
 uniform vec3 u_absorption;   // [1/m]
 uniform float u_half_width;  // [pixels]
 noperspective in float v_across;
@@ -18,5 +21,8 @@ void main() {
     vec3 left = exp(-u_absorption * texelFetch(u_thickness, pixel, 0).r);
     alpha *= 0.8 * dot(left, vec3(0.2126, 0.7152, 0.0722));
   }
+#ifdef MESHES
+  if (texelFetch(u_mesh_depth, pixel, 0).r > v_depth) alpha = 0.0;
+#endif
   o_color = alpha * vec4(EDGE, 1.0);
 }

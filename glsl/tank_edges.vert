@@ -11,11 +11,6 @@ vec3 corner(int index) {
   return (u_view * vec4(mix(u_tank_lower, u_tank_upper, share), 1.0)).xyz;
 }
 
-vec2 pixel_of(vec3 p) {
-  vec2 slope = u_size.z > 0.5 ? p.xy / -p.z : p.xy;
-  return (slope / u_lens.xy * 0.5 + 0.5) * u_size.xy;
-}
-
 void main() {
   // Edge k runs along axis k / 4; its other two coordinates are the bits of k % 4.
   int axis = gl_InstanceID / 4;

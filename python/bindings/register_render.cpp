@@ -5,6 +5,7 @@
 
 #include "bind_params.hpp"
 #include "numpy_io.hpp"
+#include <algorithm>
 #include <mutex>
 #include <unistd.h>
 
@@ -37,6 +38,36 @@ py::list egl_device_dicts() {
   py::list list;
   for (const EglDevice& device : devices) list.append(as_dict(device));
   return list;
+}
+
+Mesh make_mesh(py::handle vertices, py::handle faces, const std::array<double, 3>& color) {
+  const FloatArray points = points_array(vertices, "vertices");
+  const py::array indices = py::array::ensure(faces);
+  const char kind = indices ? indices.dtype().kind() : 'O';
+  if (kind != 'i' && kind != 'u') {
+    PyErr_Clear();
+    raise("WrongType", "faces: expected an array of whole numbers, three vertices a row");
+  }
+  if (indices.ndim() != 2 || indices.shape(1) != 3) {
+    throw InvalidParameter("faces: expected shape (m, 3), three vertices a row, got " +
+                           shape_text(indices));
+  }
+  const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> numbers(indices);
+  std::vector<Mesh::Triangle> triangles(static_cast<std::size_t>(numbers.shape(0)));
+  std::copy_n(numbers.data(), numbers.size(), triangles.empty() ? nullptr : triangles[0].data());
+  return {
+      points_view(points), std::move(triangles),
+      Vec3(static_cast<Real>(color[0]), static_cast<Real>(color[1]), static_cast<Real>(color[2]))};
+}
+
+EnvironmentMap environment_map(py::handle object) {
+  const FloatArray array = float_array(object, "environment_map");
+  if (array.ndim() != 3 || array.shape(2) != 3) {
+    throw InvalidParameter("environment_map: expected shape (height, width, 3), got " +
+                           shape_text(array));
+  }
+  return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), 3,
+          std::vector<float>(array.data(), array.data() + array.size())};
 }
 
 /// A FluidRenderer that several Python threads may call, in turn, and that can be closed.
@@ -81,9 +112,17 @@ class Renderer {
 
   py::array_t<std::uint8_t> render(py::handle positions,
                                    const Camera& camera,
-                                   const RenderParams& params) {
+                                   const RenderParams& params,
+                                   const std::vector<std::shared_ptr<Mesh>>& meshes) {
+    const Meshes all(meshes.begin(), meshes.end());
     return pixels_to_numpy(
-        draw(positions, [&](PointsView x) { return open().render(x, camera, params); }));
+        draw(positions, [&](PointsView x) { return open().render(x, camera, params, all); }));
+  }
+
+  void set_environment_map(const py::object& map) {
+    std::optional<EnvironmentMap> pixels;
+    if (!map.is_none()) pixels = environment_map(map);
+    with_lock([&] { open().set_environment_map(pixels); });
   }
 
   py::dict layers(py::handle positions, const Camera& camera, const RenderParams& params) {
@@ -129,10 +168,51 @@ class Renderer {
 void register_render(py::module_& m) {
   bind_params<Camera>(m, "Where the picture is taken from.");
   bind_params<RenderParams>(m, "How the fluid is drawn. SI units; colors are linear, 0 to 1.");
+  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh",
+                                          R"(An opaque thing in the scene, of one color.
+
+Triangles are counter-clockwise seen from outside, and not seen from inside; each is lit as the flat
+thing it is. Arrays of other libraries do, as in ``Mesh(mesh.vertices, mesh.faces)`` for one of
+trimesh.
+
+Parameters
+----------
+vertices : array_like, shape (n, 3), float32
+    Corners [m].
+faces : array_like, shape (m, 3), integers
+    The vertices of each triangle, counted from 0.
+color : three numbers, optional
+    Red, green and blue, linear, 0 to 1.
+
+Raises
+------
+InvalidParameter
+    If a shape is another, a vertex is not finite, a face names a vertex that is not there, or a
+    color is out of range.
+WrongType
+    If the arrays are no real or whole numbers.
+)")
+      .def(py::init(&make_mesh), "vertices"_a, "faces"_a,
+           "color"_a = std::array<double, 3>{0.6, 0.6, 0.6})
+      .def_property_readonly(
+          "vertices", [](const Mesh& self) { return points_to_numpy(Points(self.vertices())); })
+      .def_property_readonly(
+          "faces",
+          [](const Mesh& self) {
+            py::array_t<std::int64_t> faces(
+                {static_cast<py::ssize_t>(self.triangles().size()), static_cast<py::ssize_t>(3)});
+            if (!self.triangles().empty()) {
+              std::copy_n(self.triangles()[0].data(), faces.size(), faces.mutable_data());
+            }
+            return faces;
+          })
+      .def_property_readonly("color",
+                             [](const Mesh& self) { return PythonForm<Vec3>::out(self.color()); });
   py::class_<Renderer>(m, "Renderer", "Draws particles as a fluid, without a screen.")
       .def(py::init<int, int, std::string, bool>(), "width"_a, "height"_a, "device"_a = "",
            "timed"_a = false)
-      .def("render", &Renderer::render, "positions"_a, "camera"_a, "params"_a)
+      .def("render", &Renderer::render, "positions"_a, "camera"_a, "params"_a, "meshes"_a)
+      .def("set_environment_map", &Renderer::set_environment_map, "environment_map"_a)
       .def("layers", &Renderer::layers, "positions"_a, "camera"_a, "params"_a)
       .def("close", &Renderer::close)
       .def_property_readonly("closed", &Renderer::closed)

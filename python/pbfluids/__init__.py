@@ -29,7 +29,7 @@ from pbfluids.simulation import (
 
 if TYPE_CHECKING:
     from pbfluids.diagnosis import doctor
-    from pbfluids.render import Camera, Renderer, RenderParams
+    from pbfluids.render import Camera, Mesh, Renderer, RenderParams
     from pbfluids.scene import Frame, Scene
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "FluidError",
     "FluidParams",
     "Frame",
+    "Mesh",
     "RenderParams",
     "Renderer",
     "Scene",
@@ -57,6 +58,7 @@ __all__ = [
 _LAZY = {
     "Camera": "render",
     "Frame": "scene",
+    "Mesh": "render",
     "RenderParams": "render",
     "Renderer": "render",
     "Scene": "scene",

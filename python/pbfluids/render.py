@@ -7,17 +7,18 @@ import warnings
 from typing import TYPE_CHECKING, TypedDict, cast
 
 from pbfluids import _core
-from pbfluids._core import Camera, RenderParams
+from pbfluids._core import Camera, Mesh, RenderParams
 from pbfluids.errors import SoftwareRendering
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from types import TracebackType
 
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
-__all__ = ["Camera", "RenderParams", "RenderReport", "Renderer"]
+__all__ = ["Camera", "Mesh", "RenderParams", "RenderReport", "Renderer"]
 
 
 class RenderReport(TypedDict):
@@ -47,6 +48,8 @@ class Renderer:
         "software", "cuda:N" for the GPU that CUDA calls N, or "surfaceless". If not given, what the
         environment variable ``PBF_EGL_DEVICE`` says in the same words; else the first that works
         of: GPUs in the order of CUDA, other hardware, software, Mesa's surfaceless platform.
+    environment_map : array_like, shape (h, w, 3), float32, optional
+        See :meth:`set_environment_map`.
     timed : bool, optional
         Measure each pass (see :attr:`report`). Waiting for each costs a little.
 
@@ -76,14 +79,45 @@ class Renderer:
         height: int,
         *,
         device: int | str | None = None,
+        environment_map: ArrayLike | None = None,
         timed: bool = False,
     ) -> None:
         self._core = _core.Renderer(width, height, "" if device is None else str(device), timed)
+        if environment_map is not None:
+            self._core.set_environment_map(environment_map)
         self._size = (width, height)
         _say_if_software_by_accident(self._core)
 
+    def set_environment_map(self, environment_map: ArrayLike | None) -> None:
+        """Take the light that ``background`` and ``reflection`` ``"map"`` show; None takes it away.
+
+        Parameters
+        ----------
+        environment_map : array_like, shape (h, w, 3), float32, or None
+            Linear light from all directions: columns once around from behind over the left, ahead
+            (-z, where y is up) and the right, rows from straight up to straight down. Files of
+            panoramas are like this; ``cv2.imread("sky.hdr", cv2.IMREAD_UNCHANGED)[..., ::-1]``
+            reads one.
+
+        Raises
+        ------
+        InvalidParameter
+            If the shape is another, or light is negative or not finite.
+        WrongType
+            If it holds no real numbers.
+        GlError
+            As for :meth:`render`.
+
+        """
+        self._core.set_environment_map(environment_map)
+
     def render(
-        self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
+        self,
+        positions: ArrayLike,
+        camera: Camera,
+        params: RenderParams | None = None,
+        *,
+        meshes: Sequence[Mesh] = (),
     ) -> NDArray[np.uint8]:
         """Draw the particles.
 
@@ -95,6 +129,8 @@ class Renderer:
             Where the picture is taken from.
         params : RenderParams, optional
             How the fluid is drawn.
+        meshes : sequence of Mesh, optional
+            Opaque things before, in and behind the fluid. They cast shadows on the floor.
 
         Returns
         -------
@@ -113,7 +149,7 @@ class Renderer:
             the driver fails.
 
         """
-        return self._core.render(positions, camera, params or RenderParams())
+        return self._core.render(positions, camera, params or RenderParams(), list(meshes))
 
     def layers(
         self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None

@@ -11,11 +11,15 @@ void Buffer::upload(const void* data, GLsizeiptr bytes) const {
   glBufferData(target_, bytes, data, GL_STREAM_DRAW);
 }
 
-void VertexArray::instances(const Buffer& vectors, GLint components, GLuint attribute) const {
+void VertexArray::vertices(const Buffer& vectors, GLint components, GLuint attribute) const {
   bind();
   vectors.bind();
   glEnableVertexAttribArray(attribute);
   glVertexAttribPointer(attribute, components, GL_FLOAT, 0, 0, nullptr);
+}
+
+void VertexArray::instances(const Buffer& vectors, GLint components, GLuint attribute) const {
+  this->vertices(vectors, components, attribute);
   glVertexAttribDivisor(attribute, 1);
 }
 

@@ -18,11 +18,13 @@ class Buffer {
   GlHandle<BufferKind> handle_;
 };
 
-/// How vertices are fetched: nothing, or one vector per instance from a buffer.
+/// How vertices are fetched: nothing, or one vector per instance or per vertex from a
+/// buffer.
 class VertexArray {
  public:
   VertexArray() = default;
   void instances(const Buffer& vectors, GLint components, GLuint attribute) const;
+  void vertices(const Buffer& vectors, GLint components, GLuint attribute) const;
   void bind() const { glBindVertexArray(handle_.name()); }
 
  private:

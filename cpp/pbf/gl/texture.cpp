@@ -13,6 +13,10 @@ Layout layout_of(Format format) {
       return {GL_R32F, GL_RED, GL_FLOAT};
     case Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
+    case Format::depth32f:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
     case Format::srgb8:
       return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
     case Format::rgba8:
@@ -27,14 +31,17 @@ Texture::Texture(int width, int height, Format format, const void* data, Samplin
     : width_(width), height_(height), format_(format) {
   const Layout layout = layout_of(format);
   glBindTexture(GL_TEXTURE_2D, handle_.name());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-  const GLint filter = sampling == Sampling::linear ? GL_LINEAR : GL_NEAREST;
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  const bool panorama = sampling == Sampling::panorama;
+  const GLint filter = sampling == Sampling::nearest ? GL_NEAREST : GL_LINEAR;
+  if (!panorama) glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                  panorama ? GL_LINEAR_MIPMAP_LINEAR : filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, panorama ? GL_REPEAT : GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(layout.internal), width, height, 0,
                layout.format, layout.type, data);
+  if (panorama) glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void Texture::upload(const void* data, int pitch) const {

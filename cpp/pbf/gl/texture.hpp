@@ -7,15 +7,17 @@ namespace pbf {
 /// Channels and precision of a texture.
 /// srgb8: red, green and blue are linear wherever a shader reads or
 /// writes them, and sRGB-encoded in memory, which is where 8 bits suffice; alpha is as it is.
-enum class Format { r32f, rgba32f, rgba8, srgb8 };
+enum class Format { r32f, rgba16f, rgba32f, rgba8, srgb8, depth32f };
 
-/// What lies between the texels: the nearest one, or a linear mixture.
-enum class Sampling { nearest, linear };
+/// What lies between the texels: the nearest one, or a linear mixture. panorama: a mixture of
+/// mipmaps too, and the right edge is beside the left one.
+enum class Sampling { nearest, linear, panorama };
 
-/// A two-dimensional texture without mipmaps, clamped to its edge.
+/// A two-dimensional texture, clamped to its edge, without mipmaps unless it is a panorama.
 class Texture {
  public:
-  /// @param data  rows from the bottom up in the format's own type, or null for undefined content
+  /// @param data  rows from the bottom up, floats for formats of floats, or null for undefined
+  /// content
   Texture(int width,
           int height,
           Format format,
@@ -26,6 +28,7 @@ class Texture {
   /// @param pitch  pixels from one row of the data to the next
   void upload(const void* data, int pitch) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }
+  [[nodiscard]] Format format() const { return format_; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 

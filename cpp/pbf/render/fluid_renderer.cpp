@@ -92,14 +92,15 @@ struct FluidRenderer::Targets {
         tiles(w, h),
         width(w),
         height(h) {}
-  Target depth, thickness;          ///< affine depth; [m]
-  Framebuffer depth_and_thickness;  ///< both of these at once
-  Target between;                   ///< a filter's first half
-  Target depth_smooth;              ///< affine depth
-  Target thickness_smooth;          ///< [m]
-  Target normal;                    ///< eye space
-  Target color;                     ///< multiplied by alpha
-  FluidTiles tiles;                 ///< where any of these can hold fluid
+  Target depth, thickness;              ///< affine depth; [m]
+  Framebuffer depth_and_thickness;      ///< both of these at once
+  Target between;                       ///< a filter's first half
+  Target depth_smooth;                  ///< affine depth
+  Target thickness_smooth;              ///< [m]
+  Target normal;                        ///< eye space
+  Target color;                         ///< multiplied by alpha
+  FluidTiles tiles;                     ///< where any of these can hold fluid
+  std::unique_ptr<MeshTargets> meshes;  ///< made by the first picture that has some
   int width, height;
 };
 
@@ -132,10 +133,12 @@ FluidRenderer::~FluidRenderer() {
     const auto current = context_.make_current();
     targets_.reset();
     passes_.reset();
+    environment_map_.reset();
   } catch (const Error&) {
     // In a forked child, or after the device was lost, there are no OpenGL names to give back.
     (void)targets_.release();
     (void)passes_.release();
+    (void)environment_map_.release();
   }
 }
 
@@ -236,18 +239,31 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
 
 Image FluidRenderer::render(const PointsView& positions,
                             const Camera& camera,
-                            const RenderParams& params) {
+                            const RenderParams& params,
+                            const Meshes& meshes) {
   validate(camera);
   validate(params);
   require_finite(positions);
+  if (params.shows_map() && environment_map_ == nullptr) {
+    throw InvalidParameter(
+        "RenderParams.background or reflection = \"map\": the renderer has no environment map; "
+        "give it one");
+  }
   const auto current = context_.make_current();
   const int factor = params.supersampling;
   prepare_targets(factor);
+  Targets& to = *targets_;
   const Surface surface = draw(positions, camera, params);
   SunShadow shadow;
-  stage("shadow", [&] { shadow = sun_shadow(positions, params); });
+  stage("shadow", [&] { shadow = sun_shadow(positions, params, meshes); });
   stage("composite", [&] {
-    passes_->composite(surface, {shadow}, camera, params, targets_->color.framebuffer);
+    if (!meshes.empty() && to.meshes == nullptr) {
+      to.meshes = std::make_unique<MeshTargets>(to.color.texture);
+    }
+    const Surroundings surroundings{
+        .shadow = shadow, .meshes = &meshes, .map = environment_map_.get()};
+    passes_->composite(surface, surroundings, camera, params, to.color.framebuffer,
+                       meshes.empty() ? nullptr : to.meshes.get());
   });
   Image image;
   if (factor > 1 || params.background == Background::transparent) {
@@ -260,6 +276,29 @@ Image FluidRenderer::render(const PointsView& positions,
   }
   require_no_gl_error();
   return image;
+}
+
+void FluidRenderer::set_environment_map(const std::optional<EnvironmentMap>& map) {
+  const auto current = context_.make_current();
+  if (!map) {
+    environment_map_.reset();
+    return;
+  }
+  validate(*map);
+  require_drawable(map->width, map->height, 1);
+  // Half floats end there; the sun of a clear sky is brighter, but no screen shows it.
+  constexpr float kBrightest = 60'000;
+  std::vector<float> texels;
+  texels.reserve(map->data.size() / 3 * 4);
+  for (int y = map->height - 1; y >= 0; --y) {
+    for (int x = 0; x < map->width; ++x) {
+      for (int c = 0; c < 3; ++c) texels.push_back(std::min(map->at(x, y)[c], kBrightest));
+      texels.push_back(1);
+    }
+  }
+  environment_map_ = std::make_unique<Texture>(map->width, map->height, Format::rgba16f,
+                                               texels.data(), Sampling::panorama);
+  require_no_gl_error();
 }
 
 Layers FluidRenderer::layers(const PointsView& positions,

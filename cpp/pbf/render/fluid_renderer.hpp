@@ -2,10 +2,13 @@
 
 #include "pbf/gl/egl_context.hpp"
 #include "pbf/render/camera.hpp"
+#include "pbf/render/environment_map.hpp"
 #include "pbf/render/image.hpp"
+#include "pbf/render/mesh.hpp"
 #include "pbf/render/params.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +17,7 @@ namespace pbf {
 
 struct FrameBlock;
 struct Surface;
+class Texture;
 namespace raster {
 class SurfaceMaps;
 }
@@ -50,7 +54,12 @@ class FluidRenderer {
   FluidRenderer& operator=(const FluidRenderer&) = delete;
 
   /// @param positions  finite, column i is particle i [m]
-  Image render(const PointsView& positions, const Camera& camera, const RenderParams& params);
+  Image render(const PointsView& positions,
+               const Camera& camera,
+               const RenderParams& params,
+               const Meshes& meshes = {});
+  /// What background and reflection "map" show; nothing takes it away again.
+  void set_environment_map(const std::optional<EnvironmentMap>& map);
   Layers layers(const PointsView& positions, const Camera& camera, const RenderParams& params);
 
   [[nodiscard]] int width() const { return width_; }
@@ -85,6 +94,7 @@ class FluidRenderer {
   std::unique_ptr<Targets> targets_;
   std::unique_ptr<raster::SurfaceMaps> maps_;  ///< null where shaders draw the surface
   bool in_cpp_ = false;
+  std::unique_ptr<Texture> environment_map_;
   RenderReport report_;
 };
 

@@ -21,17 +21,17 @@ struct Choices<ThicknessSmoothing> {
 };
 
 /// What stands behind and around the fluid.
-enum class Background { sky, plain, transparent };
+enum class Background { sky, plain, map, transparent };
 template <>
 struct Choices<Background> {
-  static constexpr std::array names{"sky", "plain", "transparent"};
+  static constexpr std::array names{"sky", "plain", "map", "transparent"};
 };
 
 /// What the fluid's surface mirrors, beside the floor.
-enum class Reflection { sky, plain };
+enum class Reflection { sky, plain, map };
 template <>
 struct Choices<Reflection> {
-  static constexpr std::array names{"sky", "plain"};
+  static constexpr std::array names{"sky", "plain", "map"};
 };
 
 /// How light that is too bright for a screen is brought back.
@@ -89,7 +89,12 @@ struct RenderParams {
 
   [[nodiscard]] Reflection reflection_in_force() const {
     return reflection.value_or(background == Background::plain ? Reflection::plain
+                               : background == Background::map ? Reflection::map
                                                                : Reflection::sky);
+  }
+  /// Whether an environment map is seen or mirrored.
+  [[nodiscard]] bool shows_map() const {
+    return background == Background::map || reflection_in_force() == Reflection::map;
   }
 
   static constexpr const char* kName = "RenderParams";
@@ -141,13 +146,14 @@ struct RenderParams {
               "1.333 for water. Bends what is seen through the fluid and makes its surface a "
               "mirror."},
         Field{"background", &P::background, "", anything(),
-              "sky: a bright sky with a sun. plain: background_color everywhere. transparent: "
+              "sky: a bright sky with a sun. plain: background_color everywhere. map: the "
+              "renderer's environment map. transparent: "
               "nothing; the "
               "picture's alpha says how much of another background comes through floor and fluid."},
         Field{"reflection", &P::reflection, "", anything(),
               "What the surface mirrors beside the floor: sky, with studio lights, or plain, "
-              "background_color everywhere. If not given, plain before a plain background, else "
-              "sky."},
+              "background_color everywhere, or map, the renderer's environment map. If not "
+              "given, the background's own, and sky over transparency."},
         Field{"background_color", &P::background_color, "", between(0, 1),
               "Color of the plain background. A transparent picture is exact over it; over others "
               "fluid that absorbs colors unequally loses a little of its tint."},

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 
 namespace pbf {
@@ -34,22 +35,39 @@ struct Extent {
   double middle = 0, half = 0;
 };
 
-Extent extent(const PointsView& positions, const Vec3& axis) {
-  const auto at = [&](Index i) { return static_cast<double>(axis.dot(positions.col(i))); };
-  const auto n = static_cast<double>(positions.cols());
-  const double mean = parallel_sum(positions.cols(), kThreads, at) / n;
-  const double variance = parallel_sum(positions.cols(), kThreads,
+/// @param corners  of meshes: they belong to it as far as they are near the fluid, if there is any
+Extent extent(const PointsView& positions, const Points& corners, const Vec3& axis) {
+  const PointsView body = positions.cols() > 0 ? positions : PointsView(corners);
+  const auto at = [&](Index i) { return static_cast<double>(axis.dot(body.col(i))); };
+  const auto n = static_cast<double>(body.cols());
+  const double mean = parallel_sum(body.cols(), kThreads, at) / n;
+  const double variance = parallel_sum(body.cols(), kThreads,
                                        [&](Index i) { return (at(i) - mean) * (at(i) - mean); }) /
                           n;
   const double limit = kFarthest * std::sqrt(variance);
   double low = kInfinity, high = -kInfinity;
-  for (Index i = 0; i < positions.cols(); ++i) {
-    const double p = at(i);
-    if (std::abs(p - mean) > limit) continue;
+  const auto include = [&](double p) {
+    if (std::abs(p - mean) > limit) return;
     low = std::min(low, p);
     high = std::max(high, p);
+  };
+  for (Index i = 0; i < body.cols(); ++i) include(at(i));
+  for (Index i = 0; i < corners.cols(); ++i) {
+    include(static_cast<double>(axis.dot(corners.col(i))));
   }
   return {0.5 * (low + high), 0.5 * (high - low)};
+}
+
+Points corners_of(const Meshes& meshes) {
+  Index count = 0;
+  for (const auto& mesh : meshes) count += mesh->vertices().cols();
+  Points corners(3, count);
+  Index first = 0;
+  for (const auto& mesh : meshes) {
+    corners.middleCols(first, mesh->vertices().cols()) = mesh->vertices();
+    first += mesh->vertices().cols();
+  }
+  return corners;
 }
 
 /// Each volume goes to the four texels around it, shared so that its center stays where it is.
@@ -72,6 +90,45 @@ Grid columns(const PointsView& positions, const SunShadow& map, Real volume, Rea
     at[1] += t * right * (1 - up);
     at[map.width] += t * (1 - right) * up;
     at[map.width + 1] += t * right * up;
+  }
+  return grid;
+}
+
+/// 1 where the middle of a texel is behind a triangle; 0 in the margin.
+Grid covered(const Meshes& meshes, const SunShadow& map) {
+  Grid grid(static_cast<std::size_t>(map.width) * map.height);
+  using Vec2 = Eigen::Matrix<Real, 2, 1>;
+  const auto texel = [&](const Vec3& point) {
+    const Vec3 p = point - map.center;
+    return Vec2((map.x.dot(p) + 0.5F) * static_cast<Real>(map.width) - 0.5F,
+                (map.y.dot(p) + 0.5F) * static_cast<Real>(map.height) - 0.5F);
+  };
+  const auto left_of = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+  };
+  const auto clamped = [](Real value, int size) {
+    const Real last = static_cast<Real>(size - 1 - kReach);
+    return static_cast<int>(std::clamp(value, static_cast<Real>(kReach), last));
+  };
+  for (const auto& mesh : meshes) {
+    for (const Mesh::Triangle& triangle : mesh->triangles()) {
+      std::array<Vec2, 3> t;
+      for (int k = 0; k < 3; ++k) t[k] = texel(mesh->vertices().col(triangle[k]));
+      const Vec2 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+      const Vec2 high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+      const Real side = left_of(t[0], t[1], t[2]) < 0 ? Real{-1} : Real{1};
+      for (int y = clamped(std::ceil(low.y()), map.height); y <= clamped(high.y(), map.height);
+           ++y) {
+        for (int x = clamped(std::ceil(low.x()), map.width); x <= clamped(high.x(), map.width);
+             ++x) {
+          const Vec2 p(static_cast<Real>(x), static_cast<Real>(y));
+          if (side * left_of(t[0], t[1], p) >= 0 && side * left_of(t[1], t[2], p) >= 0 &&
+              side * left_of(t[2], t[0], p) >= 0) {
+            grid[static_cast<std::size_t>(y) * map.width + x] = 1;
+          }
+        }
+      }
+    }
   }
   return grid;
 }
@@ -110,14 +167,18 @@ Grid blurred(const Grid& grid, const SunShadow& map, int stride) {
 
 }  // namespace
 
-SunShadow sun_shadow(const PointsView& positions, const RenderParams& params) {
+SunShadow sun_shadow(const PointsView& positions,
+                     const RenderParams& params,
+                     const Meshes& meshes) {
   const Vec3 sun = params.sun_direction.normalized();
   SunShadow map;
-  if (!params.floor || params.shadow == 0 || positions.cols() == 0) return map;
+  if (!params.floor || params.shadow == 0) return map;
   if (sun.dot(params.up.normalized()) <= 0) return map;
+  const Points corners = corners_of(meshes);
+  if (positions.cols() == 0 && corners.cols() == 0) return map;
   const Frame frame = across(sun);
-  const Extent along_x = extent(positions, frame.x);
-  const Extent along_y = extent(positions, frame.y);
+  const Extent along_x = extent(positions, corners, frame.x);
+  const Extent along_y = extent(positions, corners, frame.y);
   // The Gaussian reaches three deviations, volumes go half a texel farther; then a white border.
   constexpr int kMargin = 2 * kReach + 2;
   const double widest = 2 * std::max(along_x.half, along_y.half);
@@ -131,11 +192,14 @@ SunShadow sun_shadow(const PointsView& positions, const RenderParams& params) {
   map.y = frame.y / static_cast<Real>(texel * map.height);
   Grid t = columns(positions, map, params.volume_in_force(), static_cast<Real>(texel));
   t = blurred(blurred(t, map, 1), map, map.width);
+  Grid cover = covered(meshes, map);
+  if (!meshes.empty()) cover = blurred(blurred(cover, map, 1), map, map.width);
   map.transmittance.resize(4 * t.size());
   parallel_for(static_cast<Index>(t.size()), kThreads, [&](Index k) {
     const auto texel_data = map.transmittance.data() + 4 * k;
     for (int c = 0; c < 3; ++c) {
-      const Real left = std::exp(-params.absorption[c] * t[static_cast<std::size_t>(k)]);
+      const Real left = std::exp(-params.absorption[c] * t[static_cast<std::size_t>(k)]) *
+                        (1 - cover[static_cast<std::size_t>(k)]);
       texel_data[c] = static_cast<std::uint8_t>(255 * left + 0.5F);
     }
     texel_data[3] = 255;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pbf/render/mesh.hpp"
 #include "pbf/render/params.hpp"
 
 #include <cstdint>
@@ -12,9 +13,9 @@ namespace pbf {
 ///   T = exp(-absorption · t),   t = sum of V G over the particles [m],
 ///
 /// V a particle's volume and G a Gaussian as wide as a sprite [1/m²], so that t is the length of
-/// fluid that light comes through and the shadow's edge is as soft as the sprites are round. Made
-/// by adding volumes to a grid: that takes a tenth of the time of drawing sprites, and their shape
-/// would not outlive the softening.
+/// fluid that light comes through and the shadow's edge is as soft as the sprites are round.
+/// Meshes let nothing through, with the same soft edge. Made by adding volumes to a grid: that
+/// takes a tenth of the time of drawing sprites, and their shape would not outlive the softening.
 struct SunShadow {
   static constexpr int kMostTexels = 512;  ///< to a side
 
@@ -26,8 +27,10 @@ struct SunShadow {
   std::vector<std::uint8_t> transmittance = {255, 255, 255, 255};
 };
 
-/// One white texel where there is no shadow: without fluid, with the sun below the floor, or with
-/// params.shadow = 0.
-SunShadow sun_shadow(const PointsView& positions, const RenderParams& params);
+/// One white texel where there is no shadow: without fluid and meshes, with the sun below the
+/// floor, or with params.shadow = 0.
+SunShadow sun_shadow(const PointsView& positions,
+                     const RenderParams& params,
+                     const Meshes& meshes = {});
 
 }  // namespace pbf

@@ -13,6 +13,7 @@ __all__: list[str] = [
     "Box",
     "Camera",
     "FluidParams",
+    "Mesh",
     "ParticleFields",
     "RenderParams",
     "Renderer",
@@ -653,7 +654,7 @@ class RenderParams:
     @property
     def background(self) -> str:
         """
-        sky: a bright sky with a sun. plain: background_color everywhere. transparent: nothing; the picture's alpha says how much of another background comes through floor and fluid.
+        sky: a bright sky with a sun. plain: background_color everywhere. map: the renderer's environment map. transparent: nothing; the picture's alpha says how much of another background comes through floor and fluid.
         """
     @background.setter
     def background(self, arg1: str) -> None: ...
@@ -716,7 +717,7 @@ class RenderParams:
     @property
     def reflection(self) -> str | None:
         """
-        What the surface mirrors beside the floor: sky, with studio lights, or plain, background_color everywhere. If not given, plain before a plain background, else sky.
+        What the surface mirrors beside the floor: sky, with studio lights, or plain, background_color everywhere, or map, the renderer's environment map. If not given, the background's own, and sky over transparency.
         """
     @reflection.setter
     def reflection(self, arg1: str | None) -> None: ...
@@ -881,6 +882,46 @@ class RenderParams:
         ],
     ) -> None: ...
 
+class Mesh:
+    """
+    An opaque thing in the scene, of one color.
+
+    Triangles are counter-clockwise seen from outside, and not seen from inside; each is lit as the flat
+    thing it is. Arrays of other libraries do, as in ``Mesh(mesh.vertices, mesh.faces)`` for one of
+    trimesh.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3), float32
+        Corners [m].
+    faces : array_like, shape (m, 3), integers
+        The vertices of each triangle, counted from 0.
+    color : three numbers, optional
+        Red, green and blue, linear, 0 to 1.
+
+    Raises
+    ------
+    InvalidParameter
+        If a shape is another, a vertex is not finite, a face names a vertex that is not there, or a
+        color is out of range.
+    WrongType
+        If the arrays are no real or whole numbers.
+    """
+    def __init__(
+        self,
+        vertices: typing.Any,
+        faces: typing.Any,
+        color: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.6, 0.6, 0.6],
+    ) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float]: ...
+    @property
+    def faces(self) -> numpy.typing.NDArray[numpy.int64]: ...
+    @property
+    def vertices(self) -> numpy.typing.NDArray[numpy.float32]: ...
+
 class Renderer:
     """
     Draws particles as a fluid, without a screen.
@@ -895,8 +936,13 @@ class Renderer:
     def close(self) -> None: ...
     def layers(self, positions: typing.Any, camera: Camera, params: RenderParams) -> dict: ...
     def render(
-        self, positions: typing.Any, camera: Camera, params: RenderParams
+        self,
+        positions: typing.Any,
+        camera: Camera,
+        params: RenderParams,
+        meshes: collections.abc.Sequence[Mesh],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def set_environment_map(self, environment_map: typing.Any) -> None: ...
     @property
     def asked_for(self) -> bool: ...
     @property

@@ -2,69 +2,17 @@
 
 #include "pbf/gl/draw.hpp"
 
-#include <Eigen/Geometry>
-
 #include <numbers>
 
 namespace pbf {
 namespace {
 
-Real floor_height(const RenderParams& params, const Vec3& up) {
-  if (params.floor_height) return *params.floor_height;
-  if (!params.tank_lower) return 0;
-  Real lowest = 0;  // of the tank's corners along up
-  for (int k = 0; k < 3; ++k) {
-    lowest += std::min(up[k] * (*params.tank_lower)[k], up[k] * (*params.tank_upper)[k]);
-  }
-  return lowest;
-}
-
 /// Half the width of the tank's edges with the soft margin [pixels of the finished picture].
 constexpr Real kEdgeHalfWidth = 1.3F;
 
-/// Names of functions of display.glsl and environment.glsl.
-std::vector<std::string> defines(const RenderParams& params) {
-  const bool mirrors_sky = params.reflection_in_force() == Reflection::sky;
-  const std::string backdrop = params.background == Background::sky     ? "sky"
-                               : params.background == Background::plain ? "plain"
-                                                                        : "nothing";
-  return {"TONE tone_" + std::string(Choices<ToneMapping>::names.at(
-                             static_cast<std::size_t>(params.tone_mapping))),
-          "BACKDROP " + backdrop,
-          "MIRRORED " + std::string(mirrors_sky ? "sky_with_lights" : "plain")};
-}
-
-/// Tiles about a dozen sprites wide: in scale with the scene, whatever its size.
-constexpr Real kTileInRadii = 12.5F;
-
-/// Texture units.
-enum Unit { kDepth, kThickness, kNormal, kShadow };
-
-void set_environment(const Program& program,
-                     const Surroundings& surroundings,
-                     const Camera& camera,
-                     const RenderParams& params) {
-  const Vec3 up = params.up.normalized();
-  const bool along_x = std::abs(up.x()) > 0.9F;
-  const Vec3 floor_x = (along_x ? Vec3::UnitY() : Vec3::UnitX()).cross(up).cross(-up).normalized();
-  program.set("u_up", up);
-  program.set("u_sun", Vec3(params.sun_direction.normalized()));
-  program.set("u_background_color", params.background_color);
-  program.set("u_has_floor", params.floor ? 1 : 0);
-  program.set("u_floor_height", floor_height(params, up));
-  program.set("u_tile", kTileInRadii * params.radius);
-  program.set("u_has_tank", params.tank_lower ? 1 : 0);
-  program.set("u_tank_lower", params.tank_lower.value_or(Vec3::Zero()));
-  program.set("u_tank_upper", params.tank_upper.value_or(Vec3::Zero()));
-  program.set("u_floor_x", floor_x);
-  program.set("u_floor_y", Vec3(up.cross(floor_x)));
-  program.set("u_eye", camera.eye);
-  program.set("u_shadow", kShadow);
-  program.set("u_shadow_center", surroundings.shadow.center);
-  program.set("u_shadow_x", surroundings.shadow.x);
-  program.set("u_shadow_y", surroundings.shadow.y);
-  program.set("u_shadow_strength", params.shadow);
-  program.set("u_exposure", params.exposure);
+std::vector<std::string> with_meshes(std::vector<std::string> defines, const MeshTargets* meshes) {
+  if (meshes != nullptr) defines.emplace_back("MESHES");
+  return defines;
 }
 
 }  // namespace
@@ -82,36 +30,48 @@ Composite::Composite(const GlslSource& source)
       tank_edges_(source,
                   {.vertex = {"frame.glsl", "tank_edges.vert"},
                    .fragment = {"frame.glsl", "tank_edges.frag"},
-                   .defines = {}}) {
+                   .defines = {}}),
+      opaque_meshes_(source) {
   // An error in a shader shows when the renderer is made.
-  (void)background_.with(defines({}));
-  (void)fluid_.with(defines({}));
+  (void)background_.with(environment_defines({}));
+  (void)fluid_.with(environment_defines({}));
+  (void)tank_edges_.with({});
 }
 
 void Composite::operator()(const Surface& surface,
                            const Surroundings& surroundings,
                            const Camera& camera,
                            const RenderParams& params,
-                           const Framebuffer& out) {
+                           const Framebuffer& out,
+                           const MeshTargets* meshes) {
   const SunShadow& sun = surroundings.shadow;
   const Texture shadow(sun.width, sun.height, Format::rgba8, sun.transmittance.data(),
                        Sampling::linear);
   shadow.bind(kShadow);
+  if (surroundings.map != nullptr) surroundings.map->bind(kMap);
   surface.depth.bind(kDepth);
   surface.thickness.bind(kThickness);
   surface.normal.bind(kNormal);
   out.bind();
-  const Program& background = background_.with(defines(params));
+  const Program& background = background_.with(environment_defines(params));
   background.use();
   set_environment(background, surroundings, camera, params);
   no_vertices_.bind();
   draw_fullscreen();
-  const Program& fluid = fluid_.with(defines(params));
+  if (meshes != nullptr) {
+    opaque_meshes_(*surroundings.meshes, surroundings, camera, params, *meshes);
+    meshes->light.bind(kMeshLight);
+    meshes->depth.bind(kMeshDepth);
+    out.bind();
+  }
+  const Program& fluid = fluid_.with(with_meshes(environment_defines(params), meshes));
   fluid.use();
   set_environment(fluid, surroundings, camera, params);
   fluid.set("u_depth", kDepth);
   fluid.set("u_thickness", kThickness);
   fluid.set("u_normal", kNormal);
+  fluid.set("u_mesh_light", kMeshLight);
+  fluid.set("u_mesh_depth", kMeshDepth);
   fluid.set("u_absorption", params.absorption);
   fluid.set("u_scatter", params.scatter);
   fluid.set("u_refractive_index", params.refractive_index);
@@ -120,13 +80,15 @@ void Composite::operator()(const Surface& surface,
   fluid.set("u_sprite_thickness", params.volume_in_force() / disc);
   surface.tiles.draw(Blend::over);
   if (!params.tank_lower) return;
-  tank_edges_.use();
-  tank_edges_.set("u_depth", kDepth);
-  tank_edges_.set("u_thickness", kThickness);
-  tank_edges_.set("u_absorption", params.absorption);
-  tank_edges_.set("u_tank_lower", *params.tank_lower);
-  tank_edges_.set("u_tank_upper", *params.tank_upper);
-  tank_edges_.set("u_half_width", kEdgeHalfWidth * static_cast<Real>(params.supersampling));
+  const Program& tank_edges = tank_edges_.with(with_meshes({}, meshes));
+  tank_edges.use();
+  tank_edges.set("u_depth", kDepth);
+  tank_edges.set("u_thickness", kThickness);
+  tank_edges.set("u_mesh_depth", kMeshDepth);
+  tank_edges.set("u_absorption", params.absorption);
+  tank_edges.set("u_tank_lower", *params.tank_lower);
+  tank_edges.set("u_tank_upper", *params.tank_upper);
+  tank_edges.set("u_half_width", kEdgeHalfWidth * static_cast<Real>(params.supersampling));
   no_vertices_.bind();
   set_draw_state(Blend::over);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 12);

@@ -5,7 +5,7 @@
 #include "pbf/render/camera.hpp"
 #include "pbf/render/params.hpp"
 #include "pbf/render/passes/fluid_tiles.hpp"
-#include "pbf/render/sun_shadow.hpp"
+#include "pbf/render/passes/opaque_meshes.hpp"
 
 namespace pbf {
 
@@ -17,28 +17,26 @@ struct Surface {
   const Texture& normal;
 };
 
-/// What stands around it.
-struct Surroundings {
-  const SunShadow& shadow;
-};
-
-/// The picture: sky, floor and fluid. At the fluid's surface light is mirrored and bent (Fresnel,
-/// Snell); what comes through is absorbed along the thickness (Beer-Lambert). The tank's edges are
-/// drawn over it, or seen through the fluid.
+/// The picture: sky, floor, meshes and fluid. At the fluid's surface light is mirrored and bent
+/// (Fresnel, Snell); what comes through is absorbed along its way (Beer-Lambert). The tank's edges
+/// are drawn over it, or seen through the fluid.
 class Composite {
  public:
   explicit Composite(const GlslSource& source);
-  /// @param out  srgb8, multiplied by alpha
+  /// @param out     srgb8, multiplied by alpha
+  /// @param meshes  targets of `out` for the meshes, none if there are none
   void operator()(const Surface& surface,
                   const Surroundings& surroundings,
                   const Camera& camera,
                   const RenderParams& params,
-                  const Framebuffer& out);
+                  const Framebuffer& out,
+                  const MeshTargets* meshes = nullptr);
 
  private:
   ProgramVariants background_;
   ProgramVariants fluid_;
-  Program tank_edges_;
+  ProgramVariants tank_edges_;
+  OpaqueMeshes opaque_meshes_;
   VertexArray no_vertices_;
 };
 
