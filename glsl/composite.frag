@@ -12,6 +12,8 @@ uniform vec3 u_scatter;            // color of deep fluid
 uniform float u_refractive_index;
 uniform float u_radius;            // of a sprite [m]
 uniform float u_sprite_thickness;  // mean thickness of a single sprite [m]
+uniform float u_drop_radius;       // of a lone sprite [m]
+uniform sampler2D u_spheres;       // affine depth with crowding
 layout(location = 0) out vec4 o_color;
 
 const float SPREAD = 3.0;    // of rays from a curved surface, in that of a pixel
@@ -21,7 +23,7 @@ const float MOST_WAY = 1e3;  // of a ray in the fluid [m]
 // incidence.
 float fresnel(float c, float index) {
   float g2 = index * index - 1.0 + c * c;
-  float g = sqrt(max(g2, 0.0));
+  float g = sqrt(max(g2, 1e-6));
   float a = (g - c) / (g + c);
   float b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
   return 0.5 * a * a * (1.0 + b * b);
@@ -78,7 +80,8 @@ void follow_to_wall_or_floor(inout Ray ray) {
 
 // The ray from a point of the surface to what is seen through the fluid.
 // @param to_mesh  length of the straight way to a mesh [m]
-Ray refracted(vec3 position, vec3 view, vec3 n, float thickness, float to_mesh) {
+// @param body     0 for a drop, 1 in a body of fluid
+Ray refracted(vec3 position, vec3 view, vec3 n, float thickness, float to_mesh, float body) {
   float eta = 1.0 / u_refractive_index;
   vec3 once = to_world(refract(view, n, eta));
   vec3 twice = to_world(refract(view, n, eta * eta));
@@ -92,6 +95,12 @@ Ray refracted(vec3 position, vec3 view, vec3 n, float thickness, float to_mesh) 
                      distance_to_wall(position, straight, outward));
   to_end = min(to_end, to_mesh);
   float is_bound = smoothstep(0.6, 0.9, thickness / max(to_end, 1e-3 * u_tile));
+  // And halfway of the bent one there must be fluid as well.
+  vec3 last = to_mesh < bound.way ? position + to_mesh * once : bound.at;
+  vec3 halfway = mat3(u_view) * (0.5 * (position + last) - u_eye);
+  ivec2 there = ivec2(clamp(pixel_of(halfway), vec2(0.0), u_size.xy - 1.0));
+  float between = texelFetch(u_thickness, there, 0).r / max(min(bound.way, to_mesh), 1e-6);
+  is_bound *= body * smoothstep(0.1, 0.3, between);
   return Ray(mix(position, bound.at, is_bound), normalize(mix(twice, bound.direction, is_bound)),
              mix(thickness, bound.way, is_bound), normalize(mix(twice, once, is_bound)));
 }
@@ -122,13 +131,32 @@ struct Shade {
   vec3 clear;
 };
 
-Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh) {
+// The surface that a drop hides: the mean of the normals around the drop where fluid is farther
+// away; 0 if there is none.
+vec3 normal_behind(ivec2 pixel, float depth) {
+  vec3 sum = vec3(0.0);
+  int away = int(2.5 * u_drop_radius * pixels_per_meter(depth)) + 2;
+  for (int k = 0; k < 4; ++k) {
+    int side = (k & 1) == 0 ? away : -away;
+    ivec2 at = pixel + (k < 2 ? ivec2(side, 0) : ivec2(0, side));
+    at = clamp(at, ivec2(0), ivec2(u_size.xy) - 1);
+    float a = texelFetch(u_depth, at, 0).r;
+    bool farther = is_surface(a) && depth_of(a) > depth + 2.0 * u_drop_radius;
+    sum += farther ? texelFetch(u_normal, at, 0).xyz : vec3(0.0);
+  }
+  return dot(sum, sum) > 0.0 ? normalize(sum) : sum;
+}
+
+// @param to_mesh  length of the straight way to a mesh [m]
+// @param body     0 for a drop, 1 in a body of fluid
+// @param hidden   normal of the surface that a drop hides
+Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float body, vec3 hidden) {
   vec3 position = u_eye + to_world(p);
   n = upright_at_floor(n, position);
   float mirrored = fresnel(clamp(-dot(view, n), 0.0, 1.0), u_refractive_index);
   vec3 mirror = to_world(reflect(view, n));
   vec3 reflection = environment(MIRRORED(mirror, SPREAD), position, mirror, -p.z, SPREAD).rgb;
-  Ray ray = refracted(position, view, n, thickness, to_mesh);
+  Ray ray = refracted(position, view, n, thickness, to_mesh, body);
   vec4 behind = environment(BACKDROP(ray.direction, SPREAD), ray.at, ray.direction, -p.z, SPREAD);
 #ifdef MESHES
   vec3 light;
@@ -142,7 +170,13 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh) {
   vec3 up_facing = to_world(n);
   float lit = 0.60 + 0.25 * dot(up_facing, u_up) + 0.35 * dot(up_facing, u_sun);
   vec3 through = behind.rgb * left + u_scatter * lit * (1.0 - left);
-  return Shade(mix(through, reflection, mirrored), (1.0 - mirrored) * (1.0 - behind.a) * left);
+  // What a drop hides mirrors too.
+  vec3 second = to_world(reflect(view, hidden));
+  float also = (1.0 - body) * dot(hidden, hidden) *
+               fresnel(clamp(-dot(view, hidden), 0.0, 1.0), u_refractive_index);
+  through = mix(through, MIRRORED(second, SPREAD).rgb, also);
+  vec3 clear = (1.0 - mirrored) * (1.0 - also) * (1.0 - behind.a) * left;
+  return Shade(mix(through, reflection, mirrored), clear);
 }
 
 // Share of the 3x3 pixels around that hold fluid: softens the outline.
@@ -180,7 +214,8 @@ void main() {
   if (is_surface(mesh)) to_mesh = max((depth_of(mesh) + p.z) / -view.z, 0.0);
   thickness = min(thickness, to_mesh);
 #endif
-  Shade shade = fluid(p, view, n, thickness, to_mesh);
+  float body = crowding_of(texelFetch(u_spheres, pixel, 0).r);
+  Shade shade = fluid(p, view, n, thickness, to_mesh, body, normal_behind(pixel, -p.z));
   // One alpha for three channels: that of the clearest would let the colors of others through, so
   // the least clear one has it, and the rest is what background_color adds to the others.
   float clear = min(shade.clear.r, min(shade.clear.g, shade.clear.b));

@@ -165,6 +165,37 @@ def test_a_shadow_is_seen_in_what_fluid_mirrors_and_refracts(renderer):
     assert shaded < 0.5 * lit
 
 
+def test_a_drop_at_the_glass_is_as_clear_as_in_the_open(renderer):
+    camera = pbf.Camera(eye=(0, 0.5, 1), target=(0, 0.5, 0), fov_y=10)
+    params = pbf.RenderParams(**WATER, background="plain", absorption=(9, 9, 9), floor=False)
+    drop = [[0, 0.5, 0]]
+    walls = {"tank_lower": (-2, 0, -2), "tank_upper": (0.021, 3, 0.021)}
+    free = linear(renderer.render(drop, camera, params)[50:70, 70:78])
+    assert linear(renderer.render(drop, camera, params.replace(**walls)))[50:70, 70:78] == (
+        pytest.approx(free, abs=0.01)
+    )
+
+
+def test_through_a_drop_the_mirror_of_the_pool_behind_it_is_seen(renderer):
+    # Black fluid before white: what is seen is mirrored, by the drop or behind it by the pool.
+    pool = pbf.block((-1, -0.2, -1), (1, 0, 1), spacing=0.04)
+    camera = pbf.Camera(eye=(0, 0.4, 1), target=(0, 0.15, 0), fov_y=20)
+    params = pbf.RenderParams(
+        **WATER, background="plain", absorption=(1e3, 1e3, 1e3), scatter=(0, 0, 0), floor=False
+    )
+    image = linear(renderer.render([*pool, (0, 0.15, 0)], camera, params))[..., 0]
+
+    def fresnel(c):
+        t = np.sqrt(1 - (1 - c * c) / 1.333**2)
+        return (
+            ((c - 1.333 * t) / (c + 1.333 * t)) ** 2 + ((1.333 * c - t) / (1.333 * c + t)) ** 2
+        ) / 2
+
+    drop, behind = fresnel(1), fresnel(0.25 / np.hypot(0.25, 1))
+    assert image[60, 40] == pytest.approx(behind, abs=0.03)
+    assert image[59:61, 79:81].mean() == pytest.approx(drop + (1 - drop) * behind, abs=0.03)
+
+
 @pytest.mark.parametrize(
     ("fields", "match"),
     [

@@ -158,6 +158,7 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
   maps_->find(positions, camera, params);
   if (timed_) report_.milliseconds = maps_->milliseconds();
   stage("upload", [&] {
+    upload(maps_->depth(), to.depth.texture);
     upload(maps_->depth_smooth(), to.depth_smooth.texture);
     upload(maps_->thickness_smooth(), to.thickness_smooth.texture);
     to.tiles.upload(maps_->tiles());
@@ -166,7 +167,8 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
     passes_->normal(to.tiles, to.depth_smooth.texture, params.smoothing_range_in_force(),
                     to.normal.framebuffer);
   });
-  return {to.tiles, to.depth_smooth.texture, to.thickness_smooth.texture, to.normal.texture};
+  return {to.tiles, to.depth_smooth.texture, to.thickness_smooth.texture, to.normal.texture,
+          to.depth.texture};
 }
 
 Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
@@ -227,7 +229,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   stage("normal", [&] {
     pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
   });
-  return {to.tiles, *depth, *thickness, to.normal.texture};
+  return {to.tiles, *depth, *thickness, to.normal.texture, to.depth.texture};
 }
 
 Image FluidRenderer::render(const PointsView& positions,
@@ -305,10 +307,7 @@ Layers FluidRenderer::layers(const PointsView& positions,
   const Surface surface = draw(positions, camera, params);
   Layers layers;
   stage("read_back", [&] {
-    if (maps_ != nullptr) {
-      upload(maps_->depth(), targets_->depth.texture);
-      upload(maps_->thickness(), targets_->thickness.texture);
-    }
+    if (maps_ != nullptr) upload(maps_->thickness(), targets_->thickness.texture);
     layers = {.depth = read_depth(targets_->depth.texture, camera),
               .depth_smooth = read_depth(surface.depth, camera),
               .thickness = read_floats(targets_->thickness.texture, 1),

@@ -16,6 +16,7 @@ namespace pbf {
 
 struct FrameBlock;
 struct Surface;
+class Texture;
 namespace raster {
 class SurfaceMaps;
 }

@@ -52,6 +52,7 @@ void Composite::operator()(const Surface& surface,
   surface.depth.bind(kDepth);
   surface.thickness.bind(kThickness);
   surface.normal.bind(kNormal);
+  surface.spheres.bind(kSpheres);
   out.bind();
   const Program& background = background_.with(environment_defines(params));
   background.use();
@@ -70,6 +71,8 @@ void Composite::operator()(const Surface& surface,
   fluid.set("u_depth", kDepth);
   fluid.set("u_thickness", kThickness);
   fluid.set("u_normal", kNormal);
+  fluid.set("u_spheres", kSpheres);
+  fluid.set("u_drop_radius", params.drop_radius_in_force());
   fluid.set("u_mesh_light", kMeshLight);
   fluid.set("u_mesh_depth", kMeshDepth);
   fluid.set("u_absorption", params.absorption);

@@ -15,6 +15,7 @@ struct Surface {
   const Texture& depth;
   const Texture& thickness;
   const Texture& normal;
+  const Texture& spheres;  ///< affine depth with crowding, not smoothed
 };
 
 /// The picture: sky, floor, meshes and fluid. At the fluid's surface light is mirrored and bent
