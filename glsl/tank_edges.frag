@@ -3,6 +3,7 @@
 uniform sampler2D u_depth;
 uniform sampler2D u_thickness;
 uniform vec3 u_absorption;   // [1/m]
+uniform int u_opaque;        // 1: nothing is seen through
 uniform float u_half_width;  // [pixels]
 noperspective in float v_across;
 noperspective in float v_depth;
@@ -16,7 +17,7 @@ void main() {
   float alpha = 0.72 * clamp(u_half_width - abs(v_across), 0.0, 1.0);
   if (is_surface(a) && depth_of(a) < depth_of(v_depth)) {
     vec3 left = exp(-u_absorption * texelFetch(u_thickness, pixel, 0).r);
-    alpha *= 0.8 * dot(left, vec3(0.2126, 0.7152, 0.0722));
+    alpha *= u_opaque == 1 ? 0.0 : 0.8 * dot(left, vec3(0.2126, 0.7152, 0.0722));
   }
   o_color = alpha * vec4(EDGE, 1.0);
 }

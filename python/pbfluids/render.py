@@ -17,7 +17,33 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
-__all__ = ["Camera", "RenderParams", "RenderReport", "Renderer"]
+__all__ = ["Camera", "RenderParams", "RenderReport", "Renderer", "colors"]
+
+
+def colors(values: ArrayLike, params: RenderParams | None = None) -> NDArray[np.uint8]:
+    """Give the colors that values have in a picture, for plots and legends of one's own.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        Finite.
+    params : RenderParams, optional
+        ``colormap`` and ``color_range`` count.
+
+    Returns
+    -------
+    ndarray, shape (n, 3), uint8
+        sRGB.
+
+    Raises
+    ------
+    InvalidParameter
+        If the shape is another or a value not finite.
+    WrongType
+        If the values are no real numbers.
+
+    """
+    return _core.colors(values, params or RenderParams())
 
 
 class RenderReport(TypedDict):
@@ -29,7 +55,7 @@ class RenderReport(TypedDict):
 
 
 class Renderer:
-    """Draws particles as a fluid, without a screen.
+    """Draws particles as a fluid, or as spheres, without a screen.
 
     The passes of screen-space fluid rendering [vdL09]_: depth of spheres, thickness, both smoothed,
     normals, and the picture. A context manager; :meth:`close` gives the graphics memory back.
@@ -83,7 +109,12 @@ class Renderer:
         _say_if_software_by_accident(self._core)
 
     def render(
-        self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
+        self,
+        positions: ArrayLike,
+        camera: Camera,
+        params: RenderParams | None = None,
+        *,
+        values: ArrayLike | None = None,
     ) -> NDArray[np.uint8]:
         """Draw the particles.
 
@@ -95,6 +126,10 @@ class Renderer:
             Where the picture is taken from.
         params : RenderParams, optional
             How the fluid is drawn.
+        values : array_like, shape (n,), optional
+            A number per particle that becomes its color by ``params.colormap``: spheres have it,
+            fluid has the mean of the particles at its surface. Without ``params.color_range`` the
+            colors span this picture's values; pictures of a video need a range to be comparable.
 
         Returns
         -------
@@ -105,15 +140,15 @@ class Renderer:
         Raises
         ------
         InvalidParameter
-            If the shape is another or a position is not finite.
+            If a shape is another, or a position or value is not finite.
         WrongType
-            If the positions are no real numbers.
+            If the positions or values are no real numbers.
         GlError
             If the renderer is closed or belongs to another process, a shader does not compile or
             the driver fails.
 
         """
-        return self._core.render(positions, camera, params or RenderParams())
+        return self._core.render(positions, camera, params or RenderParams(), values)
 
     def layers(
         self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
@@ -127,7 +162,7 @@ class Renderer:
             axis [m], 0 where there is none. ``thickness``, ``thickness_smooth``: shape
             (height, width), length of fluid along the pixel's ray [m]. ``normal``: shape
             (height, width, 3), unit normal in eye space (x right, y up, z towards the viewer),
-            0 where there is no fluid.
+            0 where there is no fluid. Of spheres, ``depth`` and ``normal`` alone.
 
         """
         return self._core.layers(positions, camera, params or RenderParams())

@@ -5,11 +5,16 @@
 namespace pbf {
 
 void set_draw_state(Blend blend) {
-  glDisable(GL_DEPTH_TEST);
+  if (blend == Blend::nearest) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+  } else {
+    glDisable(GL_DEPTH_TEST);
+  }
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glEnable(GL_FRAMEBUFFER_SRGB);
-  if (blend == Blend::replace) {
+  if (blend == Blend::replace || blend == Blend::nearest) {
     glDisable(GL_BLEND);
     return;
   }

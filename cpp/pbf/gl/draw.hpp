@@ -9,10 +9,11 @@ enum class Blend {
   add,          ///< the sum
   max_and_add,  ///< max in the first target, add in the second; OpenGL 4.0
   over,         ///< by the alpha of what is drawn, whose color has been multiplied by it
+  nearest,      ///< what is drawn with the greater depth replaces; needs a depth buffer
 };
 
-/// Sets all of the state that drawing depends on here: blending, back faces culled, no depth test,
-/// sRGB encoding where a target has it.
+/// Sets all of the state that drawing depends on here: blending, back faces culled, a depth test
+/// for Blend::nearest alone, sRGB encoding where a target has it.
 void set_draw_state(Blend blend);
 
 /// Three vertices, of which glsl/fullscreen.vert makes a triangle that covers the target; replaces

@@ -12,8 +12,12 @@ Framebuffer::Framebuffer(std::initializer_list<const Texture*> targets)
   glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
   std::vector<GLenum> attachments;
   for (const Texture* texture : targets) {
-    attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
-    glFramebufferTexture2D(GL_FRAMEBUFFER, attachments.back(), GL_TEXTURE_2D, texture->name(), 0);
+    GLenum attachment = GL_DEPTH_ATTACHMENT;
+    if (texture->format() != Format::depth32f) {
+      attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size());
+      attachments.push_back(attachment);
+    }
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture->name(), 0);
   }
   glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
@@ -32,6 +36,12 @@ void Framebuffer::bind() const {
 void Framebuffer::clear(int target, std::array<float, 4> value) const {
   bind();
   glClearBufferfv(GL_COLOR, target, value.data());
+}
+
+void Framebuffer::clear_depth() const {
+  bind();
+  const float farthest = 0;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
 void Framebuffer::read(GLenum format, GLenum type, void* data) const {

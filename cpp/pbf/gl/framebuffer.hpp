@@ -7,14 +7,19 @@
 
 namespace pbf {
 
-/// Draws into textures of one size, which must outlive it.
+/// Draws into textures of one size, which must outlive it; one of format depth32f is its depth
+/// buffer.
 class Framebuffer {
  public:
   /// Throws GlError if the driver cannot draw into them.
   Framebuffer(std::initializer_list<const Texture*> targets);
   /// Makes it the place to draw to, all of it.
   void bind() const;
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
   void clear(int target, std::array<float, 4> value) const;
+  /// To 0, the farthest for Blend::nearest.
+  void clear_depth() const;
   /// Rows from the bottom up, as many floats per pixel as the format has channels.
   void read(GLenum format, GLenum type, void* data) const;
 

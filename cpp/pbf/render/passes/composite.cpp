@@ -38,7 +38,7 @@ std::vector<std::string> defines(const RenderParams& params) {
 constexpr Real kTileInRadii = 12.5F;
 
 /// Texture units.
-enum Unit { kDepth, kThickness, kNormal, kShadow };
+enum Unit { kDepth, kThickness, kNormal, kShadow, kTint };
 
 void set_environment(const Program& program,
                      const Surroundings& surroundings,
@@ -79,6 +79,11 @@ Composite::Composite(const GlslSource& source)
              {.vertex = {"frame.glsl", "fluid_tiles.vert"},
               .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "composite.frag"},
               .defines = {}}),
+      spheres_(source,
+               {.vertex = {"frame.glsl", "fluid_tiles.vert"},
+                .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "color.glsl",
+                             "sphere_shading.frag"},
+                .defines = {}}),
       tank_edges_(source,
                   {.vertex = {"frame.glsl", "tank_edges.vert"},
                    .fragment = {"frame.glsl", "tank_edges.frag"},
@@ -86,6 +91,7 @@ Composite::Composite(const GlslSource& source)
   // An error in a shader shows when the renderer is made.
   (void)background_.with(defines({}));
   (void)fluid_.with(defines({}));
+  (void)spheres_.with(defines({}));
 }
 
 void Composite::operator()(const Surface& surface,
@@ -100,30 +106,36 @@ void Composite::operator()(const Surface& surface,
   surface.depth.bind(kDepth);
   surface.thickness.bind(kThickness);
   surface.normal.bind(kNormal);
+  if (surface.tint != nullptr) surface.tint->bind(kTint);
   out.bind();
   const Program& background = background_.with(defines(params));
   background.use();
   set_environment(background, surroundings, camera, params);
   no_vertices_.bind();
   draw_fullscreen();
-  const Program& fluid = fluid_.with(defines(params));
-  fluid.use();
-  set_environment(fluid, surroundings, camera, params);
-  fluid.set("u_depth", kDepth);
-  fluid.set("u_thickness", kThickness);
-  fluid.set("u_normal", kNormal);
-  fluid.set("u_absorption", params.absorption);
-  fluid.set("u_scatter", params.scatter);
-  fluid.set("u_refractive_index", params.refractive_index);
-  fluid.set("u_radius", params.radius);
+  const Vec3 absorption = surface.tint != nullptr ? params.tint_absorption() : params.absorption;
+  const bool opaque = params.style == Style::spheres;
+  const Program& body = (opaque ? spheres_ : fluid_).with(defines(params));
+  body.use();
+  set_environment(body, surroundings, camera, params);
+  body.set("u_depth", kDepth);
+  body.set("u_thickness", kThickness);
+  body.set("u_normal", kNormal);
+  body.set("u_tint", kTint);
+  body.set("u_has_tint", surface.tint != nullptr ? 1 : 0);
+  body.set("u_absorption", absorption);
+  body.set("u_scatter", params.scatter);
+  body.set("u_refractive_index", params.refractive_index);
+  body.set("u_radius", opaque ? params.sphere_radius_in_force() : params.radius);
   const Real disc = std::numbers::pi_v<Real> * params.radius * params.radius;
-  fluid.set("u_sprite_thickness", params.volume_in_force() / disc);
+  body.set("u_sprite_thickness", params.volume_in_force() / disc);
   surface.tiles.draw(Blend::over);
   if (!params.tank_lower) return;
   tank_edges_.use();
   tank_edges_.set("u_depth", kDepth);
   tank_edges_.set("u_thickness", kThickness);
-  tank_edges_.set("u_absorption", params.absorption);
+  tank_edges_.set("u_opaque", opaque ? 1 : 0);
+  tank_edges_.set("u_absorption", absorption);
   tank_edges_.set("u_tank_lower", *params.tank_lower);
   tank_edges_.set("u_tank_upper", *params.tank_upper);
   tank_edges_.set("u_half_width", kEdgeHalfWidth * static_cast<Real>(params.supersampling));

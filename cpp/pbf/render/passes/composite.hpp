@@ -14,7 +14,8 @@ struct Surface {
   const FluidTiles& tiles;
   const Texture& depth;
   const Texture& thickness;
-  const Texture& normal;
+  const Texture& normal;  ///< for spheres with their color
+  const Texture* tint;    ///< color of the fluid (passes/tint.hpp), null for its own
 };
 
 /// What stands around it.
@@ -24,7 +25,7 @@ struct Surroundings {
 
 /// The picture: sky, floor and fluid. At the fluid's surface light is mirrored and bent (Fresnel,
 /// Snell); what comes through is absorbed along the thickness (Beer-Lambert). The tank's edges are
-/// drawn over it, or seen through the fluid.
+/// drawn over it, or seen through the fluid. Spheres are opaque and lit by sun and sky.
 class Composite {
  public:
   explicit Composite(const GlslSource& source);
@@ -37,7 +38,7 @@ class Composite {
 
  private:
   ProgramVariants background_;
-  ProgramVariants fluid_;
+  ProgramVariants fluid_, spheres_;
   Program tank_edges_;
   VertexArray no_vertices_;
 };
