@@ -85,13 +85,13 @@ def crown() -> Image:
 def collision() -> Image:
     """Show two drops that have met off center, without gravity."""
     scene = pbf.Scene.load(SCENES / "collision.toml")
-    return draw(scene, state_of(scene, 0.15))
+    return draw(scene, state_of(scene, 0.3))
 
 
 def speed() -> Image:
     """Show the speed of a dam break, on the fluid and on the particles themselves."""
     scene = pbf.Scene.builtin("dam_break", color_by="speed")
-    camera = {"target": [1.05, 0.33, 0.25], "eye": [1.9, 1.15, 2.7]}
+    camera = {"target": [1.05, 0.33, 0.25], "eye": [1.9, 1.15, 2.7], "fov_y": 62.0}
     state = state_of(scene, 0.5)
     fluid = scene.replace(camera=camera, legend="")
     spheres = scene.replace(camera=camera, style="spheres", color_range=[0.0, 3.5])
@@ -108,7 +108,7 @@ def pressure() -> Image:
 
 def taylor_green() -> Image:
     """Show Taylor and Green's vortices in a periodic plane, by speed and by where they began."""
-    spacing, loose = 0.01, 0.98
+    spacing, loose = 0.0125, 0.98
     box = pbf.Box((0, 0, 0), (1, 1, 0.1), periodic=(True, True, False))
     count = round(loose / spacing)
     grid = (np.arange(count) + 0.5) / count
@@ -126,21 +126,24 @@ def taylor_green() -> Image:
     sim.add_particles(np.stack([x, y, 0 * x], axis=1), velocities)
     with Progress("taylor_green") as progress:
         sim.advance(1 / 400, frames=120, progress=progress.update)
-    camera = pbf.Camera(eye=(0.5, 0.5, 1), target=(0.5, 0.5, 0), orthographic=True, height=1.02)
+    view = pbf.Camera(eye=(0.5, 0.5, 1), target=(0.5, 0.5, 0), orthographic=True, height=1.03)
+    with_room = view.replace(eye=(0.66, 0.5, 1), target=(0.66, 0.5, 0))  # for the legend
     params = pbf.RenderParams(
         style="spheres",
         sphere_radius=spacing / 2,
+        color_range=(0, 1),
         background="plain",
         floor=False,
         sun_direction=(-0.3, 0.5, 1),
+        supersampling=2,
     )
-    by_speed = params.replace(color_range=(0, 1), legend="speed [m/s]", colormap="viridis")
-    start = params.replace(colormap="coolwarm", color_range=(0, 1))
+    by_speed = params.replace(legend="speed [m/s]")
+    by_start = params.replace(colormap="coolwarm")
     speeds = np.linalg.norm(sim.velocities, axis=1)
-    with pbf.Renderer(SIZE[1], SIZE[1]) as renderer:
+    with pbf.Renderer(720, 540) as wide, pbf.Renderer(540, 540) as square:
         return beside(
-            renderer.render(sim.positions, camera, by_speed, values=speeds),
-            renderer.render(sim.positions, camera, start, values=x),
+            wide.render(sim.positions, with_room, by_speed, values=speeds),
+            square.render(sim.positions, view, by_start, values=x),
         )
 
 
@@ -168,19 +171,16 @@ def liquids() -> Image:
 
 
 def smoothing() -> Image:
-    """Show a detail without smoothing, with the Gaussian and with the bilateral filter."""
+    """Show a detail as spheres make it, and smoothed in three ways."""
     scene = pbf.Scene.builtin("dam_break", spacing=0.015)
     state = state_of(scene, 0.9)
     camera = {"eye": [1.3, 0.9, 1.4], "target": [1.55, 0.35, 0.25], "fov_y": 32.0}
     looks = [
         {"smoothing_iterations": 0, "thickness_iterations": 0},
-        {"smoothing": "gaussian"},
-        {"smoothing": "bilateral"},
+        *({"smoothing": name} for name in ("bilateral", "narrow_range", "curvature_flow")),
     ]
-    third = (SIZE[0] // 3 - 2, SIZE[1])
-    return beside(
-        *(draw(scene.replace(camera=camera, render=look), state, third) for look in looks)
-    )
+    part = (SIZE[0] // 4 - 3, SIZE[1])
+    return beside(*(draw(scene.replace(camera=camera, render=look), state, part) for look in looks))
 
 
 def paper() -> Image:
