@@ -1,5 +1,5 @@
 # The commands of daily life. Set-up is in scripts/setup.sh, C++ in CMakePresets.json.
-.PHONY: help demo test lint format bench docs clean
+.PHONY: help demo test lint format bench docs gallery clean
 .DEFAULT_GOAL := help
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 
@@ -40,6 +40,10 @@ docs:  ## write the generated pages and type stubs again
 	@scripts/setup.sh docs
 	python scripts/update_docs.py
 	python scripts/update_stubs.py
+
+gallery:  ## simulate and draw the pictures of docs/gallery.md
+	@scripts/setup.sh demo
+	python examples/gallery.py
 
 clean:  ## remove what was built, simulated and installed here
 	rm -rf build out .venv

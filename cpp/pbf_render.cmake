@@ -18,6 +18,9 @@ add_library(pbf_render STATIC
   pbf/render/checks.cpp
   pbf/render/cpu_renderer.cpp
   pbf/render/params.cpp
+  pbf/render/colormap.cpp
+  pbf/render/lettering.cpp
+  pbf/render/legend.cpp
   pbf/render/crowding.cpp
   pbf/render/layer_filter.cpp
   pbf/render/crowding_kernels.cpp
@@ -39,6 +42,8 @@ add_library(pbf_render STATIC
   pbf/render/passes/environment.cpp
   pbf/render/passes/opaque_meshes.cpp
   pbf/render/passes/composite.cpp
+  pbf/render/passes/spheres.cpp
+  pbf/render/passes/tint.cpp
   pbf/render/raster/tiles.cpp
   pbf/render/raster/map.cpp
   pbf/render/raster/surroundings.cpp
@@ -66,6 +71,7 @@ pbf_add_lanes(pbf_render
 
 pbf_embed_glsl(pbf_render
   frame.glsl
+  sphere_outline.glsl
   sprite.vert
   sphere_hit.glsl
   sphere_depth.frag
@@ -82,5 +88,10 @@ pbf_embed_glsl(pbf_render
   opaque_meshes.frag
   composite.frag
   resolve.frag
+  color.glsl
+  spheres.vert
+  spheres.frag
+  sphere_shading.frag
+  tint.frag
   tank_edges.vert
   tank_edges.frag)

@@ -14,6 +14,8 @@ uniform float u_radius;            // of a sprite [m]
 uniform float u_sprite_thickness;  // mean thickness of a single sprite [m]
 uniform float u_drop_radius;       // of a lone sprite [m]
 uniform sampler2D u_spheres;       // affine depth with crowding
+uniform sampler2D u_tint;          // weight times color and weight (tint.frag)
+uniform int u_has_tint;            // 1: the fluid has its particles' colors
 layout(location = 0) out vec4 o_color;
 
 const float SPREAD = 3.0;    // of rays from a curved surface, in that of a pixel
@@ -125,6 +127,22 @@ bool meets_mesh(vec3 p, vec3 direction, inout float way, out vec3 light) {
 }
 #endif
 
+// Color of the fluid itself: its own, or by its particles' values. Sums are interpolated, not
+// colors: texels without fluid have no weight.
+vec3 body_color() {
+  if (u_has_tint == 0) return u_scatter;
+  vec2 at = gl_FragCoord.xy * vec2(textureSize(u_tint, 0)) / u_size.xy - 0.5;
+  ivec2 last = textureSize(u_tint, 0) - 1;
+  ivec2 low = max(ivec2(floor(at)), 0);
+  ivec2 high = min(low + 1, last);
+  vec2 share = clamp(at - vec2(low), 0.0, 1.0);
+  vec4 left = mix(texelFetch(u_tint, low, 0), texelFetch(u_tint, ivec2(low.x, high.y), 0), share.y);
+  vec4 right = mix(texelFetch(u_tint, ivec2(high.x, low.y), 0),
+                   texelFetch(u_tint, high, 0), share.y);
+  vec4 sums = mix(left, right, share.x);
+  return sums.rgb / max(sums.a, 1e-20);
+}
+
 // Light from the surface, and how much of that of a transparent background comes through.
 struct Shade {
   vec3 light;
@@ -154,6 +172,8 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   vec3 position = u_eye + to_world(p);
   n = upright_at_floor(n, position);
   float mirrored = fresnel(clamp(-dot(view, n), 0.0, 1.0), u_refractive_index);
+  // Colors that mean something are not to drown in the sky's reflection.
+  mirrored *= u_has_tint == 1 ? 0.3 : 1.0;
   vec3 mirror = to_world(reflect(view, n));
   vec3 reflection = environment(MIRRORED(mirror, SPREAD), position, mirror, -p.z, SPREAD).rgb;
   Ray ray = refracted(position, view, n, thickness, to_mesh, body);
@@ -169,7 +189,7 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   vec3 left = transmittance(ray.way);
   vec3 up_facing = to_world(n);
   float lit = 0.60 + 0.25 * dot(up_facing, u_up) + 0.35 * dot(up_facing, u_sun);
-  vec3 through = behind.rgb * left + u_scatter * lit * (1.0 - left);
+  vec3 through = behind.rgb * left + body_color() * lit * (1.0 - left);
   // What a drop hides mirrors too.
   vec3 second = to_world(reflect(view, hidden));
   float also = (1.0 - body) * dot(hidden, hidden) *

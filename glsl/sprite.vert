@@ -1,5 +1,5 @@
 // sprite.vert: a quad around the exact outline of each sphere. In: position [m] and crowding, 0 for
-// a drop alone to 1 in a body of fluid. Counter-clockwise, so that culled back faces cost nothing.
+// a drop alone to 1 in a body of fluid.
 in vec4 a_particle;
 flat out vec4 v_sphere;        // center in eye space and radius [m]
 flat out float v_crowding;
@@ -8,47 +8,11 @@ uniform float u_radius;        // in a body of fluid [m]
 uniform float u_drop_radius;   // alone [m]
 uniform float u_volume;        // of a particle [m^3]
 
-// Least and greatest slope x/depth of the part of a circle (center x, depth z) that lies beyond the
-// near plane, seen from the origin: tangents, or where the circle meets the plane (Mara & McGuire
-// 2013).
-vec2 slopes(float x, float z, float radius, float near) {
-  float cut = sqrt(max(radius * radius - (near - z) * (near - z), 0.0));
-  vec2 result = vec2(x - cut, x + cut) / near;
-  float length2 = x * x + z * z;
-  float tangent2 = length2 - radius * radius;
-  if (tangent2 > 0.0) {
-    float t = sqrt(tangent2);
-    vec2 across = vec2(x * t - z * radius, x * t + z * radius);
-    vec2 along = vec2(z * t + x * radius, z * t - x * radius);
-    if (along.x * t >= near * length2) result.x = across.x / along.x;
-    if (along.y * t >= near * length2) result.y = across.y / along.y;
-  }
-  return result;
-}
-
 void main() {
   vec3 center = (u_view * vec4(a_particle.xyz, 1.0)).xyz;
   v_crowding = a_particle.w;
   float radius = mix(u_drop_radius, u_radius, v_crowding);
   v_sphere = vec4(center, radius);
   v_share = u_volume / (4.18879020 * radius * radius * radius);
-  float near = u_lens.z;
-  if (-center.z + radius <= near || -center.z - radius >= u_lens.w) {
-    gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
-    return;
-  }
-  vec2 low = center.xy - radius;
-  vec2 high = center.xy + radius;
-  if (u_size.z > 0.5) {
-    vec2 x = slopes(center.x, -center.z, radius, near);
-    vec2 y = slopes(center.y, -center.z, radius, near);
-    low = vec2(x.x, y.x);
-    high = vec2(x.y, y.y);
-  }
-  // A hundredth of a pixel of margin for rounding; beyond the picture there is nothing to draw.
-  vec2 margin = 0.02 / u_size.xy;
-  low = clamp(low / u_lens.xy - margin, -1.0, 1.0);
-  high = clamp(high / u_lens.xy + margin, -1.0, 1.0);
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(mix(low, high, corner), 0.0, 1.0);
+  gl_Position = outline_corner(center, radius);
 }

@@ -6,6 +6,7 @@ uniform sampler2D u_thickness;
 uniform sampler2D u_mesh_depth;  // affine
 #endif
 uniform vec3 u_absorption;   // [1/m]
+uniform int u_opaque;        // 1: nothing is seen through
 uniform float u_half_width;  // [pixels]
 noperspective in float v_across;
 noperspective in float v_depth;
@@ -19,7 +20,7 @@ void main() {
   float alpha = 0.72 * clamp(u_half_width - abs(v_across), 0.0, 1.0);
   if (is_surface(a) && depth_of(a) < depth_of(v_depth)) {
     vec3 left = exp(-u_absorption * texelFetch(u_thickness, pixel, 0).r);
-    alpha *= 0.8 * dot(left, vec3(0.2126, 0.7152, 0.0722));
+    alpha *= u_opaque == 1 ? 0.0 : 0.8 * dot(left, vec3(0.2126, 0.7152, 0.0722));
   }
 #ifdef MESHES
   if (texelFetch(u_mesh_depth, pixel, 0).r > v_depth) alpha = 0.0;

@@ -18,7 +18,14 @@ STRUCTS = [
     (pbf.SolverParams, "How the constraint is solved. In a scene: `[solver]`."),
     (pbf.Box, "The walls of a tank. In a scene: `[domain]`, without defaults."),
     (pbf.Camera, "Where the fluid is seen from. In a scene: `[camera]`."),
-    (pbf.RenderParams, "How the fluid is drawn. In a scene: `[render]`."),
+    (
+        pbf.RenderParams,
+        (
+            "How the fluid is drawn. In a scene: `[render]`, which has one key more, `color_by`: "
+            "`speed`, `density`, `pressure` or `id` gives each particle its value, and range and "
+            "legend that fit all of the scene's frames."
+        ),
+    ),
 ]
 HEAD = """# Parameters
 

@@ -99,6 +99,19 @@ struct PythonForm<std::array<bool, 3>> {
     return {std::get<0>(v), std::get<1>(v), std::get<2>(v)};
   }
 };
+template <>
+struct PythonForm<std::array<Real, 2>> {
+  using type = std::tuple<double, double>;
+  static constexpr const char* kind = "vec2";
+  static constexpr const char* expected = "two numbers";
+  static constexpr const char* annotation = "collections.abc.Sequence[float]";
+  static type out(const std::array<Real, 2>& v) {
+    return {shortest_double(v[0]), shortest_double(v[1])};
+  }
+  static std::array<Real, 2> in(const type& v) {
+    return {static_cast<Real>(std::get<0>(v)), static_cast<Real>(std::get<1>(v))};
+  }
+};
 template <class T>
 struct PythonForm<std::optional<T>> {
   using type = std::optional<typename PythonForm<T>::type>;

@@ -3,6 +3,7 @@
 #include "pbf/gl/egl_turn.hpp"
 #include "pbf/render/cpu_renderer.hpp"
 #include "pbf/render/fluid_renderer.hpp"
+#include "pbf/render/legend.hpp"
 
 #include "bind_params.hpp"
 #include "numpy_io.hpp"
@@ -99,7 +100,8 @@ class Renderer {
     require_open();
     if (renderer_ == nullptr) {
       throw RendererUnavailable(
-          "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make the "
+          "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make "
+          "the "
           "renderer without backend");
     }
     return *renderer_;
@@ -148,10 +150,18 @@ class Renderer {
   py::array_t<std::uint8_t> render(py::handle positions,
                                    const Camera& camera,
                                    const RenderParams& params,
-                                   const std::vector<std::shared_ptr<Mesh>>& meshes) {
+                                   const std::vector<std::shared_ptr<Mesh>>& meshes,
+                                   const py::object& values) {
     const Meshes all(meshes.begin(), meshes.end());
-    return pixels_to_numpy(
-        draw(positions, [&](PointsView x) { return open().render(x, camera, params, all); }));
+    FloatArray numbers(std::vector<py::ssize_t>{0});
+    if (!values.is_none()) {
+      numbers = scalars_array(values, "values");
+      const FloatArray rows = points_array(positions, "positions");
+      require_rows(numbers, "values", rows.shape(0), "positions");
+    }
+    return pixels_to_numpy(draw(positions, [&](PointsView x) {
+      return open().render(x, camera, params, all, scalars_view(numbers));
+    }));
   }
 
   void set_environment_map(const py::object& map) {
@@ -164,11 +174,16 @@ class Renderer {
     Layers layers = draw(positions, [&](PointsView x) {
       return cpu_ ? cpu_->layers(x, camera, params) : open().layers(x, camera, params);
     });
-    return py::dict("depth"_a = pixels_to_numpy(std::move(layers.depth)),
-                    "depth_smooth"_a = pixels_to_numpy(std::move(layers.depth_smooth)),
-                    "thickness"_a = pixels_to_numpy(std::move(layers.thickness)),
-                    "thickness_smooth"_a = pixels_to_numpy(std::move(layers.thickness_smooth)),
-                    "normal"_a = pixels_to_numpy(std::move(layers.normal)));
+    py::dict result;
+    const auto give = [&](const char* name, Pixels<float>& layer) {
+      if (!layer.data.empty()) result[name] = pixels_to_numpy(std::move(layer));
+    };
+    give("depth", layers.depth);
+    give("depth_smooth", layers.depth_smooth);
+    give("thickness", layers.thickness);
+    give("thickness_smooth", layers.thickness_smooth);
+    give("normal", layers.normal);
+    return result;
   }
 
   py::dict report() {
@@ -203,11 +218,36 @@ class Renderer {
   }
 };
 
+py::array_t<std::uint8_t> colors_by_params(const py::object& values, const RenderParams& params) {
+  const FloatArray array = scalars_array(values, "values");
+  const auto view = scalars_view(array);
+  const Colors colors =
+      colors_of(view, params.colormap, params.color_range.value_or(range_of(view)));
+  py::array_t<std::uint8_t> result({static_cast<py::ssize_t>(colors.size()), py::ssize_t{3}});
+  auto rows = result.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      rows(static_cast<py::ssize_t>(i), k) = static_cast<std::uint8_t>(colors[i] >> (16 - 8 * k));
+    }
+  }
+  return result;
+}
+
+std::pair<std::vector<std::pair<double, std::string>>, int> legend_ticks(double low, double high) {
+  const Ticks ticks = ticks_of({static_cast<Real>(low), static_cast<Real>(high)});
+  std::vector<std::pair<double, std::string>> result;
+  for (const auto& [value, text] : ticks.ticks) result.emplace_back(value, text);
+  return {result, ticks.exponent};
+}
+
 }  // namespace
 
 void register_render(py::module_& m) {
   bind_params<Camera>(m, "Where the picture is taken from.");
   bind_params<RenderParams>(m, "How the fluid is drawn. SI units; colors are linear, 0 to 1.");
+  m.def("colors", &colors_by_params, "values"_a, "params"_a);
+  m.def("legend_ticks", &legend_ticks, "low"_a, "high"_a,
+        "Value and text of each, and the power of ten that the texts leave out.");
   py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh",
                                           R"(An opaque thing in the scene, of one color.
 
@@ -251,7 +291,8 @@ WrongType
   py::class_<Renderer>(m, "Renderer", "Draws particles as a fluid, without a screen.")
       .def(py::init<int, int, std::string, bool, const std::optional<std::string>&>(), "width"_a,
            "height"_a, "device"_a = "", "timed"_a = false, "backend"_a = py::none())
-      .def("render", &Renderer::render, "positions"_a, "camera"_a, "params"_a, "meshes"_a)
+      .def("render", &Renderer::render, "positions"_a, "camera"_a, "params"_a, "meshes"_a,
+           "values"_a = py::none())
       .def("set_environment_map", &Renderer::set_environment_map, "environment_map"_a)
       .def("layers", &Renderer::layers, "positions"_a, "camera"_a, "params"_a)
       .def("close", &Renderer::close)

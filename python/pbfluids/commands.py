@@ -37,6 +37,12 @@ Set = Annotated[
         help="Change the scene, for example --set spacing=0.03; may be repeated.",
     ),
 ]
+Color = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ATTRIBUTE", help="Color the particles by speed, density, pressure or id."
+    ),
+]
 Video = Annotated[
     Path | None, typer.Option("--video", metavar="FILE.mp4", help="Write a video as well.")
 ]
@@ -82,6 +88,7 @@ def run(
     render: Annotated[
         bool, typer.Option("--render/--no-render", help="Draw pictures as it goes.")
     ] = True,
+    color: Color = None,
     changes: Set = None,
 ) -> None:
     """Simulate a scene and render it."""
@@ -90,6 +97,8 @@ def run(
     overrides = _assignments(changes or [])
     if threads is not None:
         overrides["solver.num_threads"] = threads
+    if color is not None:
+        overrides["render.color_by"] = color
     chosen = _scene(scene, overrides)
     with _interruptible(), Progress(chosen.name) as progress:
         result = simulate(
@@ -117,6 +126,7 @@ def render_again(
     size: Annotated[
         str | None, typer.Option(metavar="WxH", help="Size of the pictures.  [default: the run's]")
     ] = None,
+    color: Color = None,
     changes: Set = None,
 ) -> None:
     """Render a finished run again, without simulating."""
@@ -125,6 +135,8 @@ def render_again(
     overrides = _assignments(changes or [])
     if camera is not None:
         overrides["camera"] = _value(f"{{{camera}}}", f"--camera {camera}")
+    if color is not None:
+        overrides["render.color_by"] = color
     with _interruptible(), Progress("render") as progress:
         result = draw(
             directory,

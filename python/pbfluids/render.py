@@ -18,7 +18,33 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
-__all__ = ["Camera", "Mesh", "RenderParams", "RenderReport", "Renderer"]
+__all__ = ["Camera", "Mesh", "RenderParams", "RenderReport", "Renderer", "colors"]
+
+
+def colors(values: ArrayLike, params: RenderParams | None = None) -> NDArray[np.uint8]:
+    """Give the colors that values have in a picture, for plots and legends of one's own.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        Finite.
+    params : RenderParams, optional
+        ``colormap`` and ``color_range`` count.
+
+    Returns
+    -------
+    ndarray, shape (n, 3), uint8
+        sRGB.
+
+    Raises
+    ------
+    InvalidParameter
+        If the shape is another or a value not finite.
+    WrongType
+        If the values are no real numbers.
+
+    """
+    return _core.colors(values, params or RenderParams())
 
 
 class RenderReport(TypedDict):
@@ -30,7 +56,7 @@ class RenderReport(TypedDict):
 
 
 class Renderer:
-    """Draws particles as a fluid, without a screen.
+    """Draws particles as a fluid, or as spheres, without a screen.
 
     The passes of screen-space fluid rendering [vdL09]_: depth of spheres, thickness, both smoothed,
     normals, and the picture. A context manager; :meth:`close` gives the graphics memory back.
@@ -126,6 +152,7 @@ class Renderer:
         params: RenderParams | None = None,
         *,
         meshes: Sequence[Mesh] = (),
+        values: ArrayLike | None = None,
     ) -> NDArray[np.uint8]:
         """Draw the particles.
 
@@ -139,6 +166,10 @@ class Renderer:
             How the fluid is drawn.
         meshes : sequence of Mesh, optional
             Opaque things before, in and behind the fluid. They cast shadows on the floor.
+        values : array_like, shape (n,), optional
+            A number per particle that becomes its color by ``params.colormap``: spheres have it,
+            fluid has the mean of the particles at its surface. Without ``params.color_range`` the
+            colors span this picture's values; pictures of a video need a range to be comparable.
 
         Returns
         -------
@@ -149,15 +180,15 @@ class Renderer:
         Raises
         ------
         InvalidParameter
-            If the shape is another or a position is not finite.
+            If a shape is another, or a position or value is not finite.
         WrongType
-            If the positions are no real numbers.
+            If the positions or values are no real numbers.
         GlError
             If the renderer is closed or belongs to another process, a shader does not compile or
             the driver fails.
 
         """
-        return self._core.render(positions, camera, params or RenderParams(), list(meshes))
+        return self._core.render(positions, camera, params or RenderParams(), list(meshes), values)
 
     def layers(
         self, positions: ArrayLike, camera: Camera, params: RenderParams | None = None
@@ -171,7 +202,7 @@ class Renderer:
             axis [m], 0 where there is none. ``thickness``, ``thickness_smooth``: shape
             (height, width), length of fluid along the pixel's ray [m]. ``normal``: shape
             (height, width, 3), unit normal in eye space (x right, y up, z towards the viewer),
-            0 where there is no fluid.
+            0 where there is no fluid. Of spheres, ``depth`` and ``normal`` alone.
 
         """
         return self._core.layers(positions, camera, params or RenderParams())

@@ -36,6 +36,7 @@ class _Work:
 
     index: int
     positions: npt.NDArray[np.float32]
+    values: npt.NDArray[np.float32] | None  # what colors the particles
     frame: Frame | None = None
     image: Any = None
 
@@ -101,7 +102,9 @@ def simulate(
         run.prepare(particles=True)
         record = _new_record(scene, size if render else None)
         try:
-            pipeline.run(_in_turn(frames, cores), stages, _Notes(run, record, total, progress))
+            pipeline.run(
+                _in_turn(scene, frames, cores), stages, _Notes(run, record, total, progress)
+            )
             record["status"] = "complete"
         except BaseException as error:
             interrupted = isinstance(error, KeyboardInterrupt)
@@ -159,8 +162,11 @@ def draw(
             if progress is not None:
                 progress(indices.index(work.index) + 1, len(indices), "")
 
-        frames = (_Work(index, run.read_positions(index)) for index in indices)
-        pipeline.run(frames, stages, finished)
+        def read(index: int) -> _Work:
+            particles = run.read_particles(index)
+            return _Work(index, particles["positions"], scene.values(particles))
+
+        pipeline.run(map(read, indices), stages, finished)
     return run
 
 
@@ -183,7 +189,7 @@ def _pictures(
 
         def draw_frame(work: _Work) -> _Work:
             with cores:
-                work.image = renderer.render(work.positions, camera, params)
+                work.image = renderer.render(work.positions, camera, params, values=work.values)
             return work
 
         def write_image(work: _Work) -> _Work:
@@ -205,14 +211,14 @@ def _pictures(
         yield stages, cores
 
 
-def _in_turn(frames: Iterator[Frame], cores: _Cores) -> Iterator[_Work]:
+def _in_turn(scene: Scene, frames: Iterator[Frame], cores: _Cores) -> Iterator[_Work]:
     """Give the frames; simulating them waits for the cores."""
     while True:
         with cores:
             frame = next(frames, None)
         if frame is None:
             return
-        yield _Work(frame.index, frame.positions, frame)
+        yield _Work(frame.index, frame.positions, scene.values(frame), frame)
 
 
 def _write_particles(run: RunDirectory, work: _Work) -> _Work:

@@ -50,13 +50,16 @@ class RunDirectory:
         """Write the fluid of a frame; give the file's name inside the directory."""
         name = _PARTICLES.format(frame.index)
         data = io.BytesIO()
-        np.savez(
-            data,
-            positions=frame.positions,
-            velocities=frame.velocities,
-            ids=frame.ids,
-            time=np.float64(frame.time),
-        )
+        arrays: dict[str, Any] = {
+            "positions": frame.positions,
+            "velocities": frame.velocities,
+            "ids": frame.ids,
+            "pressures": frame.pressures,
+            "time": np.float64(frame.time),
+        }
+        if frame.densities is not None:
+            arrays["densities"] = frame.densities
+        np.savez(data, **arrays)
         files.write(self.path / name, data.getvalue())
         return name
 
@@ -71,8 +74,8 @@ class RunDirectory:
         names = (file.stem.removeprefix("frame_") for file in self.path.glob("particles/*.npz"))
         return sorted(int(name) for name in names if name.isdigit())
 
-    def read_positions(self, index: int) -> npt.NDArray[np.float32]:
-        """Read the positions of a frame.
+    def read_particles(self, index: int) -> dict[str, npt.NDArray[Any]]:
+        """Read the arrays of a frame, its positions among them.
 
         Raises
         ------
@@ -82,10 +85,10 @@ class RunDirectory:
         file = self.path / _PARTICLES.format(index)
         try:
             with file.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
-                positions: npt.NDArray[np.float32] = arrays["positions"]
+                particles = {name: arrays[name] for name in {*arrays.files, "positions"}}
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
             raise InvalidParameter(f"{file}: not a frame of particles: {error}") from error
-        return positions
+        return particles
 
     def write_record(self, record: Mapping[str, Any]) -> None:
         """Write ``run.json``."""

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pbfluids import _core, toml
+from pbfluids import _core, coloring, toml
 from pbfluids.errors import InvalidParameter, SceneError
 from pbfluids.scene_check import check
 from pbfluids.scene_data import changed, plain, without_absent
-from pbfluids.scene_model import SceneModel
+from pbfluids.scene_model import SceneModel, for_struct
 from pbfluids.simulation import Simulation
 
 __all__ = ["Frame", "Scene"]
@@ -37,6 +37,10 @@ class Frame:
         Shape (n, 3), float32 [m], [m/s]; row i is particle ``ids[i]``.
     ids
         Shape (n,), int64.
+    pressures
+        Shape (n,), float32 [Pa]; 0 in frame 0.
+    densities
+        Shape (n,), float32 [kg/m^3], in scenes colored by density; else None.
     state_hash
         16 hexadecimal digits, equal for equal bits and so for any number of threads.
     report
@@ -48,6 +52,8 @@ class Frame:
     positions: npt.NDArray[np.float32]
     velocities: npt.NDArray[np.float32]
     ids: npt.NDArray[np.int64]
+    pressures: npt.NDArray[np.float32]
+    densities: npt.NDArray[np.float32] | None
     state_hash: str
     report: _core.StepReport | None
 
@@ -234,11 +240,37 @@ class Scene:
         derived = {
             "radius": radius,
             "drop_radius": min(0.62 * spacing, radius),
+            "sphere_radius": 0.5 * spacing,
             "particle_volume": spacing**3,
         }
         if domain:
             derived |= {"tank_lower": domain["lower"], "tank_upper": domain["upper"]}
+        if self.color_by is not None:
+            derived |= coloring.colors_of_scene(self, self.color_by)
         return _core.RenderParams(**{**derived, **given})
+
+    @property
+    def color_by(self) -> str | None:
+        """What gives the particles their colors: speed, density, pressure, id, or None."""
+        color_by: str | None = self._tables["render"]["color_by"]
+        return color_by
+
+    def values(self, frame: Frame | Mapping[str, Any]) -> npt.NDArray[np.float32] | None:
+        """Give what colors a frame's particles, for `Renderer.render`; None without `color_by`.
+
+        Parameters
+        ----------
+        frame
+            Of this scene, or the arrays of a file of a run.
+
+        Raises
+        ------
+        InvalidParameter
+            If the frame does not hold what is needed.
+        """
+        if self.color_by is None:
+            return None
+        return coloring.values(self.color_by, frame if isinstance(frame, Mapping) else vars(frame))
 
     def particles(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
         """Positions and velocities at the start, each of shape (n, 3), float32 [m], [m/s]."""
@@ -305,6 +337,8 @@ class Scene:
                 simulation.positions,
                 simulation.velocities,
                 simulation.ids,
+                simulation.pressures,
+                simulation.densities if self.color_by == "density" else None,
                 simulation.state_hash(),
                 report,
             )
@@ -313,7 +347,7 @@ class Scene:
             yield frame
 
     def _given(self, section: str) -> dict[str, Any]:
-        return {key: value for key, value in self._tables[section].items() if value is not None}
+        return for_struct(section, self._tables[section])
 
     def _bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Corners [m] of the domain, in open space of the fluid at the start."""

@@ -11,7 +11,16 @@ from pydantic import ValidationError
 
 from pbfluids.errors import InvalidParameter, WrongType
 from pbfluids.scene_geometry import geometry_faults
-from pbfluids.scene_model import STRUCTS, TABLES, Ball, Block, Domain, SceneModel, SceneTables
+from pbfluids.scene_model import (
+    STRUCTS,
+    TABLES,
+    Ball,
+    Block,
+    Domain,
+    SceneModel,
+    SceneTables,
+    for_struct,
+)
 
 Path = tuple[str | int, ...]
 
@@ -107,7 +116,7 @@ def _build(section: str, data: Mapping[str, Any], wrong: set[Path]) -> tuple[Any
         return None, []
     sound = {key: given[key] for key in given if not _is_wrong((section, key), wrong)}
     table = TABLES[section].model_validate(sound)
-    values = table.model_dump(exclude_unset=True, exclude_none=True)
+    values = for_struct(section, table.model_dump(exclude_unset=True))
     try:
         return STRUCTS[section](**values), []
     except (InvalidParameter, WrongType) as error:  # a whole number may be too large for an int

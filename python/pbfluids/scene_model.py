@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model
 
 from pbfluids import _core
+from pbfluids.coloring import LEGENDS
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
@@ -42,10 +43,24 @@ DERIVED: dict[str, dict[str, str]] = {
     "render": {
         "radius": "1.2 times the fluid's spacing.",
         "drop_radius": "0.62 times the fluid's spacing.",
+        "sphere_radius": "half the fluid's spacing.",
+        "colormap": 'viridis; shuffled with color_by = "id".',
+        "color_range": "what the scene's energy allows, the same for all frames.",
+        "legend": "name and unit of what color_by names.",
         "particle_volume": "the cube of the fluid's spacing.",
         "tank_lower": "the domain's.",
         "tank_upper": "the domain's.",
     },
+}
+
+# Keys that a scene's table has beside its struct's, which knows nothing of a solver.
+_BESIDES: dict[str, dict[str, Any]] = {
+    "render": {
+        "color_by": (
+            Literal[tuple(LEGENDS)] | None,
+            Field(default=None, description="What gives the particles their colors."),
+        )
+    }
 }
 
 _KINDS: dict[str, Any] = {
@@ -53,8 +68,15 @@ _KINDS: dict[str, Any] = {
     "int": int,
     "bool": bool,
     "string": str,
+    "vec2": Annotated[list[float], Field(min_length=2, max_length=2)],
     "vec3": Annotated[list[float], Field(min_length=3, max_length=3)],
 }
+
+
+def for_struct(section: str, values: dict[str, Any]) -> dict[str, Any]:
+    """Leave out what a table has beside its struct's parameters, and what is not given."""
+    besides = _BESIDES.get(section, {})
+    return {k: v for k, v in values.items() if v is not None and k not in besides}
 
 
 class Table(BaseModel):
@@ -75,7 +97,7 @@ def _schema_of(field: dict[str, Any]) -> dict[str, Any]:
         bounds["exclusiveMinimum" if field["least_excluded"] else "minimum"] = field["least"]
     if math.isfinite(field["most"]):
         bounds["exclusiveMaximum" if field["most_excluded"] else "maximum"] = field["most"]
-    if field["kind"] == "vec3":
+    if field["kind"] in ("vec2", "vec3"):
         bounds = {"items": {"type": "number", **bounds}}
     return {"unit": field["unit"], **bounds} if field["unit"] else bounds
 
@@ -105,6 +127,7 @@ def _table_of(section: str) -> type[Table]:
                 json_schema_extra=_schema_of(field),
             ),
         )
+    fields |= _BESIDES.get(section, {})
     return create_model(section.capitalize(), __base__=Table, **fields)
 
 

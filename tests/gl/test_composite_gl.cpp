@@ -23,7 +23,8 @@ std::array<double, 3> seen(const RenderParams& params, double thickness, const V
   const Texture color(65, 65, Format::srgb8);
   const Framebuffer out({&color});
   Composite pass(glsl_source);
-  pass({gl.tiles(), depth, thick, normals, depth}, {.shadow = SunShadow{}}, camera, params, out);
+  pass({gl.tiles(), depth, thick, normals, depth, nullptr}, {.shadow = SunShadow{}}, camera, params,
+       out);
   std::vector<std::uint8_t> pixels(65 * 65 * 4);
   out.read(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   std::array<double, 3> linear{};

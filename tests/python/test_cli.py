@@ -68,7 +68,7 @@ def test_the_particles_are_those_of_the_scene_s_frames(run, tiny_file, tmp_path)
     record = record_of(tmp_path / "out")
     for frame in pbf.Scene.load(tiny_file).frames():
         with np.load(tmp_path / f"out/particles/frame_{frame.index:05d}.npz") as arrays:
-            assert sorted(arrays) == ["ids", "positions", "time", "velocities"]
+            assert sorted(arrays) == ["ids", "positions", "pressures", "time", "velocities"]
             np.testing.assert_array_equal(arrays["positions"], frame.positions)
             np.testing.assert_array_equal(arrays["velocities"], frame.velocities)
             np.testing.assert_array_equal(arrays["ids"], frame.ids)
@@ -215,13 +215,42 @@ def test_a_directory_that_cannot_be_made_ends_with_code_1(run, tiny_file, tmp_pa
     assert "Not a directory" in stderr
 
 
+@pytest.mark.gl
+def test_color_paints_a_run_and_paints_it_again_by_something_else(run, tiny_file, tmp_path):
+    def picture():
+        with Image.open(out / "images/frame_00002.png") as opened:
+            return np.asarray(opened).copy()
+
+    out = tmp_path / "out"
+    assert run("run", tiny_file, "--out", out, *SIZE, "--color", "speed")[0] == 0
+    pictures = {"speed": picture()}
+    for attribute in ("pressure", "id"):
+        assert run("render", out, "--color", attribute)[0] == 0
+        pictures[attribute] = picture()
+    assert run("render", out, "--set", "render.color_by=speed")[0] == 0
+    assert np.array_equal(picture(), pictures["speed"])
+    assert not np.array_equal(pictures["speed"], pictures["pressure"])
+    assert not np.array_equal(pictures["pressure"], pictures["id"])
+
+
+@pytest.mark.gl
+def test_densities_are_there_if_the_run_was_colored_by_them(run, tiny_file, tmp_path):
+    out = tmp_path / "out"
+    assert run("run", tiny_file, "--out", out, *SIZE)[0] == 0
+    code, _, stderr = run("render", out, "--color", "density")
+    assert code == 2
+    assert 'color_by = "density": the run holds none; simulate it again with it' in stderr
+    assert run("run", tiny_file, "--out", out, *SIZE, "--color", "density")[0] == 0
+    assert run("render", out)[0] == 0
+
+
 def test_a_damaged_frame_is_named(run, tiny_file, tmp_path):
     out = tmp_path / "out"
     run("run", tiny_file, "--out", out, "--no-render")
     frame = out / "particles/frame_00001.npz"
     frame.write_bytes(frame.read_bytes()[:100])
     with pytest.raises(pbf.errors.InvalidParameter, match=r"frame_00001\.npz: not a frame"):
-        RunDirectory(out).read_positions(1)
+        RunDirectory(out).read_particles(1)
 
 
 def test_ctrl_c_ends_with_code_130_and_complete_files(tiny_file, tmp_path):

@@ -253,7 +253,9 @@ def test_the_schema_says_what_the_structs_say():
     for section, struct in STRUCTS.items():
         table = schema["$defs"][section.capitalize()]
         assert table["additionalProperties"] is False
-        assert list(table["properties"]) == [field["name"] for field in struct.describe()]
+        besides = {"render": ["color_by"]}.get(section, [])
+        names = [field["name"] for field in struct.describe()]
+        assert list(table["properties"]) == names + besides
         for field in struct.describe():
             entry = table["properties"][field["name"]]
             assert entry["description"].startswith(field["doc"])
@@ -262,7 +264,7 @@ def test_the_schema_says_what_the_structs_say():
                 default = field["default"]
                 expected = list(default) if isinstance(default, tuple) else default
                 assert entry["default"] == expected
-            limits = entry["items"] if field["kind"] == "vec3" else entry
+            limits = entry["items"] if field["kind"] in ("vec2", "vec3") else entry
             bound = "exclusiveMinimum" if field["least_excluded"] else "minimum"
             assert limits.get(bound, -math.inf) == field["least"]
 
@@ -399,3 +401,61 @@ def test_whatever_a_file_holds_it_is_a_scene_or_a_scene_error(changes):
             table[1] = value
     with contextlib.suppress(SceneError):
         assert pbf.Scene(data).frame_count >= 1
+
+
+def test_a_scene_colored_by_speed_has_a_range_that_no_particle_leaves(tiny):
+    tiny["render"] = {"color_by": "speed"}
+    scene = pbf.Scene(tiny)
+    low, high = scene.render_params.color_range
+    assert low == 0
+    assert high == pytest.approx(np.sqrt(2 * 9.81 * 0.175), rel=1e-5)  # the top layer's center
+    assert scene.render_params.legend == "speed [m/s]"
+    for frame in scene.frames():
+        speed = scene.values(frame)
+        assert np.allclose(speed, np.sqrt((frame.velocities**2).sum(axis=1)))
+        assert speed.max() <= high
+    assert pbf.Scene(scene.as_dict()) == scene
+
+
+@pytest.mark.parametrize(
+    ("color_by", "range_in_force", "colormap"),
+    [
+        ("pressure", (0, 1000 * 9.81 * 0.175), "viridis"),
+        ("density", (970, 1030), "viridis"),
+        ("id", None, "shuffled"),
+        (None, None, "viridis"),
+    ],
+)
+def test_other_attributes_have_their_ranges_too(tiny, color_by, range_in_force, colormap):
+    scene = pbf.Scene(tiny).replace(color_by=color_by) if color_by else pbf.Scene(tiny)
+    params = scene.render_params
+    assert params.color_range == (range_in_force and pytest.approx(range_in_force, rel=1e-5))
+    assert params.colormap == colormap
+    last = list(scene.frames())[-1]
+    expected = {
+        "pressure": last.pressures,
+        "density": last.densities,
+        "id": last.ids,
+        None: None,
+    }[color_by]
+    assert np.array_equal(scene.values(last), expected)
+    assert (last.densities is None) == (color_by != "density")
+
+
+def test_what_the_scene_says_of_colors_comes_first(tiny):
+    tiny["render"] = {"color_by": "speed", "color_range": [1.0, 2.0], "legend": ""}
+    params = pbf.Scene(tiny).render_params
+    assert (params.color_range, params.legend) == ((1, 2), "")
+
+
+def test_nothing_at_rest_without_gravity_still_has_a_range(tiny):
+    tiny["fluid"]["gravity"] = [0.0, 0.0, 0.0]
+    tiny["render"] = {"color_by": "speed"}
+    assert pbf.Scene(tiny).render_params.color_range == (0, 1)
+
+
+def test_an_unknown_attribute_is_refused_with_the_known_ones(tiny):
+    tiny["render"] = {"color_by": "sped"}
+    assert faults_of(tiny) == [
+        "render.color_by = \"sped\": must be 'speed', 'density', 'pressure' or 'id'"
+    ]

@@ -15,6 +15,8 @@ class Framebuffer {
   Framebuffer(std::initializer_list<const Texture*> targets);
   /// Makes it the place to draw to, all of it.
   void bind() const;
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
   void clear(int target, std::array<float, 4> value) const;
   /// To 0, the farthest for Blend::nearest.
   void clear_depth() const;

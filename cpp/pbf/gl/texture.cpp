@@ -15,10 +15,10 @@ Layout layout_of(Format format) {
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
     case Format::rgba16f:
       return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
-    case Format::depth32f:
-      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
     case Format::srgb8:
       return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::depth32f:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
     case Format::rgba8:
       break;
   }

@@ -4,6 +4,7 @@
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/frame_block.hpp"
 #include "pbf/render/glsl_source.hpp"
+#include "pbf/render/legend.hpp"
 #include "pbf/render/nearest.hpp"
 #include "pbf/render/passes/composite.hpp"
 #include "pbf/render/passes/curvature_flow.hpp"
@@ -11,12 +12,15 @@
 #include "pbf/render/passes/resolve.hpp"
 #include "pbf/render/passes/smooth.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
+#include "pbf/render/passes/spheres.hpp"
 #include "pbf/render/passes/thickness.hpp"
+#include "pbf/render/passes/tint.hpp"
 #include "pbf/render/raster/surface_maps.hpp"
 #include "pbf/render/read_back.hpp"
 #include "pbf/render/target.hpp"
 
 #include <chrono>
+#include <cmath>
 
 namespace pbf {
 namespace {
@@ -31,6 +35,39 @@ void require_drawable(int width, int height, int factor) {
                            " pixels: this driver draws at most " + std::to_string(limit) +
                            (factor > 1 ? " with supersampling = " + std::to_string(factor) : ""));
   }
+}
+
+void require_values(const ScalarsView& values, Index particles) {
+  if (values.size() != 0 && values.size() != particles) {
+    throw InvalidParameter("values: " + std::to_string(values.size()) + " for " +
+                           std::to_string(particles) + " particles; there must be one for each");
+  }
+  for (Index i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      throw InvalidParameter("values: that of particle " + std::to_string(i) +
+                             " is not finite; every one must be");
+    }
+  }
+}
+
+/// 0xrrggbb, sRGB-encoded.
+std::uint32_t encoded(const Vec3& linear) {
+  std::uint32_t color = 0;
+  for (const Real c : linear) {
+    const Real curved = c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1 / 2.4F) - 0.055F;
+    color = color << 8U | static_cast<std::uint32_t>(std::lround(255 * curved));
+  }
+  return color;
+}
+
+/// The parameters of a shadow as deep as what is drawn is opaque.
+RenderParams for_shadow(RenderParams params, bool colored) {
+  if (params.style == Style::spheres) {
+    params.absorption = Vec3::Constant(2 / params.sphere_radius_in_force());
+  } else if (colored) {
+    params.absorption = params.tint_absorption();
+  }
+  return params;
 }
 
 void require_no_gl_error() {
@@ -63,6 +100,9 @@ struct FluidRenderer::Passes {
   std::unique_ptr<Smooth> smooth;
   std::unique_ptr<CurvatureFlow> curvature_flow;
   Normal normal{glsl_source};
+  ColoredParticles colored;
+  Spheres spheres{glsl_source};
+  Tint tint{glsl_source};
   Composite composite{glsl_source};
   Resolve resolve{glsl_source};
 };
@@ -89,6 +129,17 @@ struct FluidRenderer::Targets {
   Target color;                         ///< multiplied by alpha
   FluidTiles tiles;                     ///< where any of these can hold fluid
   std::unique_ptr<MeshTargets> meshes;  ///< made by the first picture that has some
+
+  /// Made by the first picture that needs it.
+  struct Spheres {
+    explicit Spheres(const Targets& to)
+        : nearest(to.width, to.height, Format::depth32f),
+          framebuffer({&to.depth.texture, &to.normal.texture, &nearest}) {}
+    Texture nearest;
+    Framebuffer framebuffer;  ///< affine depth; normal and color
+  };
+  std::unique_ptr<Spheres> spheres;
+  std::unique_ptr<Target> tint;  ///< weight times color, weight
   int width, height;
 };
 
@@ -142,13 +193,54 @@ void FluidRenderer::stage(const char* name, F&& pass) {
 
 Surface FluidRenderer::draw(const PointsView& positions,
                             const Camera& camera,
-                            const RenderParams& params) {
+                            const RenderParams& params,
+                            const Colors& colors) {
   report_ = {.particles = positions.cols(), .milliseconds = {}};
   const FrameBlock frame = frame_block(camera, targets_->width, targets_->height);
   passes_->frame.upload(&frame, sizeof frame);
   passes_->frame.bind_base(0);
-  return maps_ ? draw_in_cpp(positions, camera, params)
-               : draw_in_glsl(positions, camera, frame, params);
+  if (params.style == Style::spheres) return draw_spheres(positions, camera, params, colors);
+  Surface surface = maps_ ? draw_in_cpp(positions, camera, params)
+                          : draw_in_glsl(positions, camera, frame, params);
+  if (!colors.empty()) {
+    surface.tint = &draw_tint(positions, camera, surface.depth, params, colors);
+  }
+  return surface;
+}
+
+Surface FluidRenderer::draw_spheres(const PointsView& positions,
+                                    const Camera& camera,
+                                    const RenderParams& params,
+                                    const Colors& colors) {
+  Targets& to = *targets_;
+  const Real radius = params.sphere_radius_in_force();
+  stage("upload", [&] {
+    const Colors all_alike(static_cast<std::size_t>(positions.cols()),
+                           encoded(params.sphere_color));
+    passes_->colored.upload(positions, colors.empty() ? all_alike : colors, camera.eye);
+    to.tiles.find(positions, camera, radius);
+  });
+  if (to.spheres == nullptr) to.spheres = std::make_unique<Targets::Spheres>(to);
+  stage("spheres", [&] { passes_->spheres(passes_->colored, radius, to.spheres->framebuffer); });
+  return {to.tiles,          to.depth.texture, to.thickness.texture,
+          to.normal.texture, to.depth.texture, nullptr};
+}
+
+const Texture& FluidRenderer::draw_tint(const PointsView& positions,
+                                        const Camera& camera,
+                                        const Texture& depth,
+                                        const RenderParams& params,
+                                        const Colors& colors) {
+  Targets& to = *targets_;
+  if (to.tint == nullptr) {
+    // Half as fine as the picture: colors have no edges within a surface.
+    to.tint = std::make_unique<Target>((to.width + 1) / 2, (to.height + 1) / 2, Format::rgba32f);
+  }
+  stage("tint", [&] {
+    passes_->colored.upload(positions, colors, camera.eye);
+    passes_->tint(passes_->colored, depth, params.radius, to.tint->framebuffer);
+  });
+  return to.tint->texture;
 }
 
 Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
@@ -167,8 +259,8 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
     passes_->normal(to.tiles, to.depth_smooth.texture, params.smoothing_range_in_force(),
                     to.normal.framebuffer);
   });
-  return {to.tiles, to.depth_smooth.texture, to.thickness_smooth.texture, to.normal.texture,
-          to.depth.texture};
+  return {to.tiles,          to.depth_smooth.texture, to.thickness_smooth.texture,
+          to.normal.texture, to.depth.texture,        nullptr};
 }
 
 Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
@@ -229,28 +321,34 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   stage("normal", [&] {
     pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
   });
-  return {to.tiles, *depth, *thickness, to.normal.texture, to.depth.texture};
+  return {to.tiles, *depth, *thickness, to.normal.texture, to.depth.texture, nullptr};
 }
 
 Image FluidRenderer::render(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params,
-                            const Meshes& meshes) {
+                            const Meshes& meshes,
+                            const ScalarsView& values) {
   validate(camera);
   validate(params);
   require_finite(positions);
+  require_values(values, positions.cols());
   if (params.shows_map() && environment_map_ == nullptr) {
     throw InvalidParameter(
         "RenderParams.background or reflection = \"map\": the renderer has no environment map; "
         "give it one");
   }
+  const ColorRange range = params.color_range.value_or(range_of(values));
   const auto current = context_.make_current();
   const int factor = params.supersampling;
   prepare_targets(factor);
   Targets& to = *targets_;
-  const Surface surface = draw(positions, camera, params);
+  const Surface surface =
+      draw(positions, camera, params, colors_of(values, params.colormap, range));
   SunShadow shadow;
-  stage("shadow", [&] { shadow = sun_shadow(positions, params, meshes); });
+  stage("shadow", [&] {
+    shadow = sun_shadow(positions, for_shadow(params, surface.tint != nullptr), meshes);
+  });
   stage("composite", [&] {
     if (!meshes.empty() && to.meshes == nullptr) {
       to.meshes = std::make_unique<MeshTargets>(to.color.texture);
@@ -270,6 +368,9 @@ Image FluidRenderer::render(const PointsView& positions,
     stage("read_back", [&] { image = read_rgba8(targets_->color.texture); });
   }
   require_no_gl_error();
+  if (values.size() > 0 && !params.legend.empty()) {
+    draw_legend(image, params.legend, params.colormap, range);
+  }
   return image;
 }
 
@@ -304,9 +405,14 @@ Layers FluidRenderer::layers(const PointsView& positions,
   require_finite(positions);
   const auto current = context_.make_current();
   prepare_targets(1);
-  const Surface surface = draw(positions, camera, params);
+  const Surface surface = draw(positions, camera, params, {});
   Layers layers;
   stage("read_back", [&] {
+    if (params.style == Style::spheres) {
+      layers.depth = read_depth(surface.depth, camera);
+      layers.normal = read_floats(surface.normal, 3);
+      return;
+    }
     if (maps_ != nullptr) upload(maps_->thickness(), targets_->thickness.texture);
     layers = {.depth = read_depth(targets_->depth.texture, camera),
               .depth_smooth = read_depth(surface.depth, camera),

@@ -47,12 +47,15 @@ class FluidRenderer {
   FluidRenderer& operator=(const FluidRenderer&) = delete;
 
   /// @param positions  finite, column i is particle i [m]
+  /// @param values  finite, a number per particle that becomes its color; none: none
   Image render(const PointsView& positions,
                const Camera& camera,
                const RenderParams& params,
-               const Meshes& meshes = {});
+               const Meshes& meshes = {},
+               const ScalarsView& values = Scalars());
   /// What background and reflection "map" show; nothing takes it away again.
   void set_environment_map(const std::optional<EnvironmentMap>& map);
+  /// For spheres thickness is left empty, as are the smoothed ones.
   Layers layers(const PointsView& positions, const Camera& camera, const RenderParams& params);
 
   [[nodiscard]] int width() const { return width_; }
@@ -68,7 +71,10 @@ class FluidRenderer {
   struct Targets;
   /// Makes targets of `factor` times the picture's size unless there are.
   void prepare_targets(int factor);
-  Surface draw(const PointsView& positions, const Camera& camera, const RenderParams& params);
+  Surface draw(const PointsView& positions,
+               const Camera& camera,
+               const RenderParams& params,
+               const Colors& colors);
   Surface draw_in_glsl(const PointsView& positions,
                        const Camera& camera,
                        const FrameBlock& frame,
@@ -76,6 +82,15 @@ class FluidRenderer {
   Surface draw_in_cpp(const PointsView& positions,
                       const Camera& camera,
                       const RenderParams& params);
+  Surface draw_spheres(const PointsView& positions,
+                       const Camera& camera,
+                       const RenderParams& params,
+                       const Colors& colors);
+  const Texture& draw_tint(const PointsView& positions,
+                           const Camera& camera,
+                           const Texture& depth,
+                           const RenderParams& params,
+                           const Colors& colors);
   /// Runs a pass, and times it if that was asked for.
   template <class F>
   void stage(const char* name, F&& pass);

@@ -13,6 +13,12 @@ void RenderParams::check_together(Faults& faults) const {
   if (drop_radius && *drop_radius > radius) {
     faults.add("drop_radius", *drop_radius, "m", "must not exceed radius = " + to_text(radius));
   }
+  if (color_range && !((*color_range)[0] < (*color_range)[1])) {
+    faults.add("color_range", *color_range, "", "the first must be less than the second");
+  }
+  if (!legend.empty() && colormap == Colormap::shuffled) {
+    faults.add("legend", legend, "", "the colors of shuffled have no order; leave it empty");
+  }
   if (!(up.norm() > 0)) faults.add("up", up, "", "must not be zero; (0, 1, 0) if y points up");
   if (!(sun_direction.norm() > 0)) {
     faults.add("sun_direction", sun_direction, "", "must not be zero; it points towards the sun");

@@ -1,10 +1,18 @@
 #pragma once
 
 #include "pbf/core/fields.hpp"
+#include "pbf/render/colormap.hpp"
 
 #include <optional>
 
 namespace pbf {
+
+/// What the particles are drawn as.
+enum class Style { fluid, spheres };
+template <>
+struct Choices<Style> {
+  static constexpr std::array names{"fluid", "spheres"};
+};
 
 /// How depth is smoothed.
 enum class Smoothing { bilateral, gaussian, narrow_range, curvature_flow };
@@ -43,6 +51,7 @@ struct Choices<ToneMapping> {
 
 /// How the fluid is drawn. SI units; colors are linear, 0 to 1.
 struct RenderParams {
+  Style style = Style::fluid;
   Real radius = 0.02F;
   std::optional<Real> drop_radius = std::nullopt;
   std::optional<Real> particle_volume = std::nullopt;
@@ -57,6 +66,12 @@ struct RenderParams {
   Vec3 absorption{7.0F, 2.0F, 1.0F};
   Vec3 scatter{0.015F, 0.12F, 0.19F};
   Real refractive_index = 1.333F;
+  std::optional<Real> sphere_radius = std::nullopt;
+  Vec3 sphere_color{0.10F, 0.32F, 0.60F};
+  Colormap colormap = Colormap::viridis;
+  std::optional<ColorRange> color_range = std::nullopt;
+  std::string legend;
+  std::optional<Real> tint_depth = std::nullopt;
   Background background = Background::sky;
   std::optional<Reflection> reflection = std::nullopt;
   Vec3 background_color{1.0F, 1.0F, 1.0F};
@@ -74,6 +89,10 @@ struct RenderParams {
   // What the optional fields stand for when not given.
   [[nodiscard]] Real drop_radius_in_force() const { return drop_radius.value_or(radius); }
   [[nodiscard]] Real volume_in_force() const;  ///< [m³]
+  [[nodiscard]] Real sphere_radius_in_force() const { return sphere_radius.value_or(radius / 2); }
+  [[nodiscard]] Vec3 tint_absorption() const {
+    return Vec3::Constant(1 / tint_depth.value_or(radius));
+  }
   [[nodiscard]] Real smoothing_radius_in_force() const {
     return smoothing_radius.value_or(2.0F * radius);
   }
@@ -101,6 +120,10 @@ struct RenderParams {
   static auto fields() {
     using P = RenderParams;
     return std::tuple{
+        Field{
+            "style", &P::style, "", anything(),
+            "fluid: a liquid with a smooth surface. spheres: the particles themselves, opaque, for "
+            "who wants to see what the solver does."},
         Field{"radius", &P::radius, "m", inside(1e-7, 1e6),
               "Radius of a particle's sprite. Sprites must overlap: the particle distance is a "
               "good value."},
@@ -145,6 +168,28 @@ struct RenderParams {
         Field{"refractive_index", &P::refractive_index, "", between(1, 4),
               "1.333 for water. Bends what is seen through the fluid and makes its surface a "
               "mirror."},
+        Field{"sphere_radius", &P::sphere_radius, "m", inside(1e-7, 1e6),
+              "Radius of a particle drawn as a sphere, radius / 2 if not given: spheres half the "
+              "particle distance large touch one another."},
+        Field{"sphere_color", &P::sphere_color, "", between(0, 1),
+              "Color of spheres that are drawn without values."},
+        Field{"colormap", &P::colormap, "", anything(),
+              "Which color a value gets. viridis, magma, cividis and gray rise in lightness, "
+              "cividis looks nearly the same to color-blind eyes; coolwarm has a middle; shuffled "
+              "gives whole numbers, such as ids, colors that tell neighbors apart."},
+        Field{
+            "color_range", &P::color_range, "", between(-1e30, 1e30),
+            "Values of the first and the last color; what is beyond gets the color of that end. "
+            "The least and the greatest of the picture's values if not given, so the pictures of a "
+            "video need a range to be comparable. Not used by shuffled."},
+        Field{
+            "legend", &P::legend, "", anything(),
+            "What the values are, with unit, such as \"speed [m/s]\": drawn with a color bar into "
+            "the picture's corner where values are given. No legend if empty."},
+        Field{
+            "tint_depth", &P::tint_depth, "m", inside(0, 1e6),
+            "How deep fluid colored by values must be to hide 63 % of what is behind it, in place "
+            "of absorption; radius if not given, which is opaque but for spray. Larger is glass."},
         Field{"background", &P::background, "", anything(),
               "sky: a bright sky with a sun. plain: background_color everywhere. map: the "
               "renderer's environment map. transparent: "

@@ -23,9 +23,11 @@ __all__: list[str] = [
     "ball",
     "block",
     "build_info",
+    "colors",
     "egl_cures",
     "egl_devices",
     "instruction_sets",
+    "legend_ticks",
     "stages",
     "usable_threads",
     "visible_gpus",
@@ -600,6 +602,7 @@ class RenderParams:
     def __init__(
         self,
         *,
+        style: str = ...,
         radius: float = ...,
         drop_radius: float | None = ...,
         particle_volume: float | None = ...,
@@ -614,6 +617,12 @@ class RenderParams:
         absorption: collections.abc.Sequence[float] = ...,
         scatter: collections.abc.Sequence[float] = ...,
         refractive_index: float = ...,
+        sphere_radius: float | None = ...,
+        sphere_color: collections.abc.Sequence[float] = ...,
+        colormap: str = ...,
+        color_range: collections.abc.Sequence[float] | None = ...,
+        legend: str = ...,
+        tint_depth: float | None = ...,
         background: str = ...,
         reflection: str | None = ...,
         background_color: collections.abc.Sequence[float] = ...,
@@ -673,6 +682,26 @@ class RenderParams:
         ],
     ) -> None: ...
     @property
+    def color_range(self) -> tuple[float, float] | None:
+        """
+        Values of the first and the last color; what is beyond gets the color of that end. The least and the greatest of the picture's values if not given, so the pictures of a video need a range to be comparable. Not used by shuffled.
+        """
+    @color_range.setter
+    def color_range(
+        self,
+        arg1: tuple[
+            typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex
+        ]
+        | None,
+    ) -> None: ...
+    @property
+    def colormap(self) -> str:
+        """
+        Which color a value gets. viridis, magma, cividis and gray rise in lightness, cividis looks nearly the same to color-blind eyes; coolwarm has a middle; shuffled gives whole numbers, such as ids, colors that tell neighbors apart.
+        """
+    @colormap.setter
+    def colormap(self, arg1: str) -> None: ...
+    @property
     def drop_radius(self) -> float | None:
         """
         Radius of the sprite of a particle that is alone; at most radius, which it is if not given. With 0.62 times the particle distance a drop has its particle's volume. Small groups of particles lie between. The depth filter leaves drops round.
@@ -700,6 +729,13 @@ class RenderParams:
         """
     @floor_height.setter
     def floor_height(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def legend(self) -> str:
+        """
+        What the values are, with unit, such as "speed [m/s]": drawn with a color bar into the picture's corner where values are given. No legend if empty.
+        """
+    @legend.setter
+    def legend(self, arg1: str) -> None: ...
     @property
     def particle_volume(self) -> float | None:
         """
@@ -779,6 +815,34 @@ class RenderParams:
         """
     @smoothing_range.setter
     def smoothing_range(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def sphere_color(self) -> tuple[float, float, float]:
+        """
+        Color of spheres that are drawn without values.
+        """
+    @sphere_color.setter
+    def sphere_color(
+        self,
+        arg1: tuple[
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.SupportsFloat | typing.SupportsIndex,
+        ],
+    ) -> None: ...
+    @property
+    def sphere_radius(self) -> float | None:
+        """
+        Radius of a particle drawn as a sphere, radius / 2 if not given: spheres half the particle distance large touch one another.
+        """
+    @sphere_radius.setter
+    def sphere_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def style(self) -> str:
+        """
+        fluid: a liquid with a smooth surface. spheres: the particles themselves, opaque, for who wants to see what the solver does.
+        """
+    @style.setter
+    def style(self, arg1: str) -> None: ...
     @property
     def sun_direction(self) -> tuple[float, float, float]:
         """
@@ -861,6 +925,13 @@ class RenderParams:
     @thickness_smoothing.setter
     def thickness_smoothing(self, arg1: str) -> None: ...
     @property
+    def tint_depth(self) -> float | None:
+        """
+        How deep fluid colored by values must be to hide 63 % of what is behind it, in place of absorption; radius if not given, which is opaque but for spray. Larger is glass.
+        """
+    @tint_depth.setter
+    def tint_depth(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
     def tone_mapping(self) -> str:
         """
         How bright light is brought into the picture. soft: values below 0.8 stay as they are. none: values above 1 are cut off. aces: the contrast of film, darker and more colorful.
@@ -932,6 +1003,7 @@ class Renderer:
         height: typing.SupportsInt | typing.SupportsIndex,
         device: str = "",
         timed: bool = False,
+        backend: str | None = None,
     ) -> None: ...
     def close(self) -> None: ...
     def layers(self, positions: typing.Any, camera: Camera, params: RenderParams) -> dict: ...
@@ -941,6 +1013,7 @@ class Renderer:
         camera: Camera,
         params: RenderParams,
         meshes: collections.abc.Sequence[Mesh],
+        values: typing.Any = None,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def set_environment_map(self, environment_map: typing.Any) -> None: ...
     @property
@@ -981,6 +1054,7 @@ def build_info() -> dict[str, str]:
     Compiler, instruction set and libraries of this build.
     """
 
+def colors(values: typing.Any, params: RenderParams) -> numpy.typing.NDArray[numpy.uint8]: ...
 def egl_cures() -> list[str]:
     """
     What to do where rendering, or a GPU for it, is missing.
@@ -994,6 +1068,14 @@ def egl_devices() -> list:
 def instruction_sets() -> list[str]:
     """
     Instruction sets that the solver is compiled for and this processor has, plainest first.
+    """
+
+def legend_ticks(
+    low: typing.SupportsFloat | typing.SupportsIndex,
+    high: typing.SupportsFloat | typing.SupportsIndex,
+) -> tuple[list[tuple[float, str]], int]:
+    """
+    Value and text of each, and the power of ten that the texts leave out.
     """
 
 def usable_threads(requested: typing.SupportsInt | typing.SupportsIndex) -> int:

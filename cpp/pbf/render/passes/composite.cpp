@@ -27,6 +27,11 @@ Composite::Composite(const GlslSource& source)
              {.vertex = {"frame.glsl", "fluid_tiles.vert"},
               .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "composite.frag"},
               .defines = {}}),
+      spheres_(source,
+               {.vertex = {"frame.glsl", "fluid_tiles.vert"},
+                .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "color.glsl",
+                             "sphere_shading.frag"},
+                .defines = {}}),
       tank_edges_(source,
                   {.vertex = {"frame.glsl", "tank_edges.vert"},
                    .fragment = {"frame.glsl", "tank_edges.frag"},
@@ -35,6 +40,7 @@ Composite::Composite(const GlslSource& source)
   // An error in a shader shows when the renderer is made.
   (void)background_.with(environment_defines({}));
   (void)fluid_.with(environment_defines({}));
+  (void)spheres_.with(environment_defines({}));
   (void)tank_edges_.with({});
 }
 
@@ -53,6 +59,7 @@ void Composite::operator()(const Surface& surface,
   surface.thickness.bind(kThickness);
   surface.normal.bind(kNormal);
   surface.spheres.bind(kSpheres);
+  if (surface.tint != nullptr) surface.tint->bind(kTint);
   out.bind();
   const Program& background = background_.with(environment_defines(params));
   background.use();
@@ -65,30 +72,36 @@ void Composite::operator()(const Surface& surface,
     meshes->depth.bind(kMeshDepth);
     out.bind();
   }
-  const Program& fluid = fluid_.with(with_meshes(environment_defines(params), meshes));
-  fluid.use();
-  set_environment(fluid, surroundings, camera, params);
-  fluid.set("u_depth", kDepth);
-  fluid.set("u_thickness", kThickness);
-  fluid.set("u_normal", kNormal);
-  fluid.set("u_spheres", kSpheres);
-  fluid.set("u_drop_radius", params.drop_radius_in_force());
-  fluid.set("u_mesh_light", kMeshLight);
-  fluid.set("u_mesh_depth", kMeshDepth);
-  fluid.set("u_absorption", params.absorption);
-  fluid.set("u_scatter", params.scatter);
-  fluid.set("u_refractive_index", params.refractive_index);
-  fluid.set("u_radius", params.radius);
+  const Vec3 absorption = surface.tint != nullptr ? params.tint_absorption() : params.absorption;
+  const bool opaque = params.style == Style::spheres;
+  const Program& body =
+      (opaque ? spheres_ : fluid_).with(with_meshes(environment_defines(params), meshes));
+  body.use();
+  set_environment(body, surroundings, camera, params);
+  body.set("u_depth", kDepth);
+  body.set("u_thickness", kThickness);
+  body.set("u_normal", kNormal);
+  body.set("u_spheres", kSpheres);
+  body.set("u_drop_radius", params.drop_radius_in_force());
+  body.set("u_mesh_light", kMeshLight);
+  body.set("u_mesh_depth", kMeshDepth);
+  body.set("u_tint", kTint);
+  body.set("u_has_tint", surface.tint != nullptr ? 1 : 0);
+  body.set("u_absorption", absorption);
+  body.set("u_scatter", params.scatter);
+  body.set("u_refractive_index", params.refractive_index);
+  body.set("u_radius", opaque ? params.sphere_radius_in_force() : params.radius);
   const Real disc = std::numbers::pi_v<Real> * params.radius * params.radius;
-  fluid.set("u_sprite_thickness", params.volume_in_force() / disc);
+  body.set("u_sprite_thickness", params.volume_in_force() / disc);
   surface.tiles.draw(Blend::over);
   if (!params.tank_lower) return;
   const Program& tank_edges = tank_edges_.with(with_meshes({}, meshes));
   tank_edges.use();
   tank_edges.set("u_depth", kDepth);
   tank_edges.set("u_thickness", kThickness);
+  tank_edges.set("u_opaque", opaque ? 1 : 0);
   tank_edges.set("u_mesh_depth", kMeshDepth);
-  tank_edges.set("u_absorption", params.absorption);
+  tank_edges.set("u_absorption", absorption);
   tank_edges.set("u_tank_lower", *params.tank_lower);
   tank_edges.set("u_tank_upper", *params.tank_upper);
   tank_edges.set("u_half_width", kEdgeHalfWidth * static_cast<Real>(params.supersampling));

@@ -14,13 +14,14 @@ struct Surface {
   const FluidTiles& tiles;
   const Texture& depth;
   const Texture& thickness;
-  const Texture& normal;
+  const Texture& normal;   ///< for spheres with their color
   const Texture& spheres;  ///< affine depth with crowding, not smoothed
+  const Texture* tint;     ///< color of the fluid (passes/tint.hpp), null for its own
 };
 
 /// The picture: sky, floor, meshes and fluid. At the fluid's surface light is mirrored and bent
 /// (Fresnel, Snell); what comes through is absorbed along its way (Beer-Lambert). The tank's edges
-/// are drawn over it, or seen through the fluid.
+/// are drawn over it, or seen through the fluid. Spheres are opaque and lit by sun and sky.
 class Composite {
  public:
   explicit Composite(const GlslSource& source);
@@ -35,7 +36,7 @@ class Composite {
 
  private:
   ProgramVariants background_;
-  ProgramVariants fluid_;
+  ProgramVariants fluid_, spheres_;
   ProgramVariants tank_edges_;
   OpaqueMeshes opaque_meshes_;
   VertexArray no_vertices_;

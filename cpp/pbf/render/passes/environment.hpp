@@ -17,7 +17,7 @@ struct Surroundings {
 };
 
 /// Texture units of the passes that make the picture.
-enum Unit { kDepth, kThickness, kNormal, kShadow, kMap, kMeshLight, kMeshDepth, kSpheres };
+enum Unit { kDepth, kThickness, kNormal, kShadow, kMap, kMeshLight, kMeshDepth, kSpheres, kTint };
 
 /// The functions that stand for what is asked for, by their names in glsl/environment.glsl and
 /// display.glsl.

@@ -4,7 +4,7 @@ namespace pbf {
 
 SphereDepth::SphereDepth(const GlslSource& source, bool with_thickness)
     : program_(source,
-               {.vertex = {"frame.glsl", "sprite.vert"},
+               {.vertex = {"frame.glsl", "sphere_outline.glsl", "sprite.vert"},
                 .fragment = {"frame.glsl", "sphere_hit.glsl", "sphere_depth.frag"},
                 .defines = with_thickness ? std::vector<std::string>{"THICKNESS"}
                                           : std::vector<std::string>{}}),

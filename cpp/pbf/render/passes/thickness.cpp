@@ -4,7 +4,7 @@ namespace pbf {
 
 Thickness::Thickness(const GlslSource& source)
     : program_(source,
-               {.vertex = {"frame.glsl", "sprite.vert"},
+               {.vertex = {"frame.glsl", "sphere_outline.glsl", "sprite.vert"},
                 .fragment = {"frame.glsl", "sphere_hit.glsl", "thickness.frag"},
                 .defines = {}}) {}
 

@@ -1,0 +1,66 @@
+#include "pbf/render/passes/spheres.hpp"
+
+#include "pbf/render/passes/sphere_depth.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace pbf {
+namespace {
+
+/// As glsl/color.glsl reads it.
+float packed(std::uint32_t color) { return std::bit_cast<float>(0x3F000000U | color); }
+
+}  // namespace
+
+void ColoredParticles::upload(const PointsView& positions, const Colors& colors, const Vec3& eye) {
+  const Index n = positions.cols();
+  // Sorted by shells around the eye: the order within one is that in which they came.
+  constexpr int kShells = 4096;
+  Real farthest2 = 0;
+  for (Index i = 0; i < n; ++i) {
+    farthest2 = std::max(farthest2, (positions.col(i) - eye).squaredNorm());
+  }
+  const Real shells = (kShells - 1) / std::max(std::sqrt(farthest2), 1e-30F);
+  std::vector<std::uint32_t> shell(static_cast<std::size_t>(n));
+  std::vector<std::uint32_t> begin(kShells + 1, 0);
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::uint32_t>(shells * (positions.col(i) - eye).norm());
+    shell[static_cast<std::size_t>(i)] = k;
+    ++begin[k + 1];
+  }
+  for (int k = 0; k < kShells; ++k) begin[k + 1] += begin[k];
+  sorted_.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Vec3 x = positions.col(i);
+    const auto row = static_cast<std::size_t>(i);
+    sorted_[static_cast<Index>(begin[shell[row]]++)] = {x.x(), x.y(), x.z(), packed(colors[row])};
+  }
+  count_ = static_cast<GLsizei>(n);
+  buffer_.upload(sorted_.data(), count_ * static_cast<GLsizeiptr>(sizeof(Record)));
+}
+
+void ColoredParticles::draw(Blend blend) const {
+  set_draw_state(blend);
+  array_.bind();
+  if (count_ > 0) glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+}
+
+Spheres::Spheres(const GlslSource& source)
+    : program_(source,
+               {.vertex = {"frame.glsl", "sphere_outline.glsl", "spheres.vert"},
+                .fragment = {"frame.glsl", "sphere_hit.glsl", "spheres.frag"},
+                .defines = {}}) {}
+
+void Spheres::operator()(const ColoredParticles& particles,
+                         Real radius,
+                         const Framebuffer& out) const {
+  out.clear(0, {kNothing, 0, 0, 0});
+  out.clear(1, {0, 0, 0, 0});
+  out.clear_depth();
+  program_.use();
+  program_.set("u_radius", radius);
+  particles.draw(Blend::nearest);
+}
+
+}  // namespace pbf
