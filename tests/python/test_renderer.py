@@ -134,7 +134,8 @@ def test_no_particles_give_the_background(renderer):
 
 
 def test_row_0_is_the_top(any_renderer):
-    layers = any_renderer.layers([[0, 0.6, -2]], pbf.Camera(**ALONG_Z), pbf.RenderParams(radius=0.1))
+    params = pbf.RenderParams(radius=0.1)
+    layers = any_renderer.layers([[0, 0.6, -2]], pbf.Camera(**ALONG_Z), params)
     assert layers["depth"][:60].any()
     assert not layers["depth"][60:].any()
 

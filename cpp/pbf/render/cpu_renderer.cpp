@@ -10,8 +10,7 @@ namespace {
 int side(int pixels, const char* name) {
   if (checked_side(pixels, name) > CpuRenderer::kMostPixels) {
     throw InvalidParameter(std::string(name) + " = " + std::to_string(pixels) +
-                           " pixels: must be at most " +
-                           std::to_string(CpuRenderer::kMostPixels));
+                           " pixels: must be at most " + std::to_string(CpuRenderer::kMostPixels));
   }
   return pixels;
 }
