@@ -304,7 +304,7 @@ def test_a_report_counts_particles_and_times_passes_when_asked(renderer):
         *("normal", "shadow", "composite", "read_back"),
     }
     assert "OpenGL" in renderer.description
-    assert set(renderer.info) == {"renderer", "vendor", "version", "platform"}
+    assert set(renderer.info) == {"renderer", "vendor", "version", "platform", "choice"}
 
 
 def test_close_is_final_and_may_come_twice():

@@ -13,7 +13,6 @@ __all__: list[str] = [
     "Box",
     "Camera",
     "FluidParams",
-    "Mesh",
     "ParticleFields",
     "RenderParams",
     "Renderer",
@@ -23,12 +22,8 @@ __all__: list[str] = [
     "ball",
     "block",
     "build_info",
-    "egl_cures",
-    "egl_devices",
-    "instruction_sets",
     "stages",
     "usable_threads",
-    "visible_gpus",
 ]
 
 class FluidParams:
@@ -50,8 +45,7 @@ class FluidParams:
         support_radius: float | None = ...,
         rest_density: float = ...,
         gravity: collections.abc.Sequence[float] = ...,
-        kernel: str | None = ...,
-        dimensions: int = ...,
+        kernel: str = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -62,13 +56,6 @@ class FluidParams:
         """
         A copy with some fields changed.
         """
-    @property
-    def dimensions(self) -> int:
-        """
-        3: the fluid fills space. 2: it flows in a plane of constant z, with the kernels and the rest lattice of the plane; z of the gravity must be 0, and the domain has walls in x and y only.
-        """
-    @dimensions.setter
-    def dimensions(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def gravity(self) -> tuple[float, float, float]:
         """
@@ -89,12 +76,12 @@ class FluidParams:
         The support radius in force [m]: support_radius, or 2 * spacing.
         """
     @property
-    def kernel(self) -> str | None:
+    def kernel(self) -> str:
         """
-        poly6_spiky: poly6 for densities, spiky for gradients, as in the paper; together they are no gradient of one thing, and fluid at rest simmers. cubic_spline, wendland: one kernel for both; it comes to rest. wendland if not given, poly6_spiky with the plain method.
+        poly6_spiky: poly6 for densities, spiky for gradients, as in the paper. cubic_spline: one kernel for both.
         """
     @kernel.setter
-    def kernel(self, arg1: str | None) -> None: ...
+    def kernel(self, arg1: str) -> None: ...
     @property
     def rest_density(self) -> float:
         """
@@ -132,22 +119,10 @@ class SolverParams:
     def __init__(
         self,
         *,
-        method: str | None = ...,
-        iterations: int | None = ...,
-        min_iterations: int = ...,
-        max_iterations: int = ...,
-        tolerance: float = ...,
-        max_tolerance: float | None = ...,
-        compliance: float = ...,
-        warm_start: float = ...,
-        acceleration: str = ...,
+        iterations: int = ...,
         substeps: int = ...,
-        time_step: str = ...,
-        cfl: float = ...,
-        min_time_step: float = ...,
-        max_time_step: float = ...,
         relaxation: float = ...,
-        constraint_floor: float | None = ...,
+        constraint_floor: float = ...,
         tensile_strength: float = ...,
         tensile_distance: float = ...,
         tensile_exponent: int = ...,
@@ -165,84 +140,19 @@ class SolverParams:
         A copy with some fields changed.
         """
     @property
-    def acceleration(self) -> str:
+    def constraint_floor(self) -> float:
         """
-        nesterov: iterations gather momentum, and need the root of the number that none needs. Pressure method.
-        """
-    @acceleration.setter
-    def acceleration(self, arg1: str) -> None: ...
-    @property
-    def cfl(self) -> float:
-        """
-        Adaptive time step: how far the fastest particle may move in a step, as a share of the spacing.
-        """
-    @cfl.setter
-    def cfl(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def compliance(self) -> float:
-        """
-        Softness of the fluid: density / rest_density - 1 = compliance * pressure / rest_density, whatever the time step. One over the speed of sound squared; 0 is incompressible. Pressure method.
-        """
-    @compliance.setter
-    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def constraint_floor(self) -> float | None:
-        """
-        The constraint is never taken below this; with the pressure method, the sum of a step's iterations pulls no more than this asks for. 0 pushes only, so drops come off freely; -inf pulls as well and clumps at free surfaces. If not given: -0.002 with the plain method, 0 with pressure.
+        The constraint is never taken below this. 0 pushes only, so drops come off freely; -inf pulls as well and clumps at free surfaces.
         """
     @constraint_floor.setter
-    def constraint_floor(
-        self, arg1: typing.SupportsFloat | typing.SupportsIndex | None
-    ) -> None: ...
+    def constraint_floor(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def iterations(self) -> int | None:
+    def iterations(self) -> int:
         """
-        Solver iterations per time step, exactly. More make the fluid stiffer; a correction travels at most two support radii in each. If not given: 4 with the plain method, as many as the tolerances ask for with pressure.
+        Solver iterations per time step. More make the fluid stiffer; a correction travels at most two support radii in each.
         """
     @iterations.setter
-    def iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
-    @property
-    def max_iterations(self) -> int:
-        """
-        Most iterations, tolerances met or not.
-        """
-    @max_iterations.setter
-    def max_iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def max_time_step(self) -> float:
-        """
-        Adaptive time step: never longer than this.
-        """
-    @max_time_step.setter
-    def max_time_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def max_tolerance(self) -> float | None:
-        """
-        Compression of the worst particle that must be reached as well; not looked at if not given.
-        """
-    @max_tolerance.setter
-    def max_tolerance(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
-    @property
-    def method(self) -> str | None:
-        """
-        plain: every iteration starts from nothing, as in the paper; cheap, and springy where water is deep. pressure: multipliers add up over a time step, a bound keeps them from pulling, and the last step's are a first guess; it holds tall columns. plain if iterations are given, else pressure.
-        """
-    @method.setter
-    def method(self, arg1: str | None) -> None: ...
-    @property
-    def min_iterations(self) -> int:
-        """
-        Fewest iterations before tolerances are looked at.
-        """
-    @min_iterations.setter
-    def min_iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def min_time_step(self) -> float:
-        """
-        Adaptive time step: never shorter than this, but for the last one of a frame.
-        """
-    @min_time_step.setter
-    def min_time_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def num_threads(self) -> int:
         """
@@ -260,7 +170,7 @@ class SolverParams:
     @property
     def substeps(self) -> int:
         """
-        Time steps per frame where the time step is fixed. More make the fluid livelier, and with the plain method stiffer: compression falls with their square.
+        Time steps per frame. More make the fluid stiffer and livelier: compression falls with their square.
         """
     @substeps.setter
     def substeps(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -281,24 +191,10 @@ class SolverParams:
     @property
     def tensile_strength(self) -> float:
         """
-        Artificial repulsion between close particles, in units of 1 / D_ideal, in every iteration or, with the pressure method, once in a step. Spreads thin sheets and evens out spacing; too much inflates the fluid. The paper's k is tensile_strength / D_ideal.
+        Artificial repulsion between close particles, in units of 1 / D_ideal. Spreads thin sheets and evens out spacing; too much inflates the fluid. The paper's k is tensile_strength / D_ideal.
         """
     @tensile_strength.setter
     def tensile_strength(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def time_step(self) -> str:
-        """
-        fixed: substeps equal parts of a frame. adaptive: as many equal parts as the fastest particle needs (cfl), found anew in each step.
-        """
-    @time_step.setter
-    def time_step(self, arg1: str) -> None: ...
-    @property
-    def tolerance(self) -> float:
-        """
-        Mean compression, max(density / rest_density - 1, 0), at which the iterations end. Smaller is stiffer and slower. With compliance: what is left of the compression that the pressure does not account for.
-        """
-    @tolerance.setter
-    def tolerance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def vorticity(self) -> float:
         """
@@ -306,13 +202,6 @@ class SolverParams:
         """
     @vorticity.setter
     def vorticity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def warm_start(self) -> float:
-        """
-        Share of the last time step's pressure that the iterations start from. More needs fewer iterations in calm water; near 1 errors live on and waves build up. Pressure method.
-        """
-    @warm_start.setter
-    def warm_start(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def xsph(self) -> float:
         """
@@ -337,7 +226,6 @@ class Box:
         self,
         lower: collections.abc.Sequence[float] = ...,
         upper: collections.abc.Sequence[float] = ...,
-        periodic: collections.abc.Sequence[bool] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -362,13 +250,6 @@ class Box:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
-    @property
-    def periodic(self) -> tuple[bool, bool, bool]:
-        """
-        Axes along which there are no walls: what leaves the box there comes in at the opposite face, and fluid at the one face is next to fluid at the other.
-        """
-    @periodic.setter
-    def periodic(self, arg1: tuple[bool, bool, bool]) -> None: ...
     @property
     def upper(self) -> tuple[float, float, float]:
         """
@@ -414,11 +295,6 @@ class StepReport:
         Milliseconds by stage.
         """
     @property
-    def stable(self) -> bool:
-        """
-        False if the fluid was crushed to twice its density in the mean: the time step is too long.
-        """
-    @property
     def steps(self) -> int:
         """
         Time steps reported on.
@@ -444,7 +320,6 @@ class Simulation:
     def ids(self) -> numpy.typing.NDArray[numpy.int64]: ...
     def multipliers(self) -> numpy.typing.NDArray[numpy.float32]: ...
     def positions(self) -> numpy.typing.NDArray[numpy.float32]: ...
-    def pressures(self) -> numpy.typing.NDArray[numpy.float32]: ...
     def set_solver(self, solver: SolverParams) -> None: ...
     def size(self) -> int: ...
     def solver(self) -> SolverParams: ...
@@ -601,7 +476,6 @@ class RenderParams:
         self,
         *,
         radius: float = ...,
-        drop_radius: float | None = ...,
         particle_volume: float | None = ...,
         smoothing: str = ...,
         smoothing_radius: float | None = ...,
@@ -615,18 +489,14 @@ class RenderParams:
         scatter: collections.abc.Sequence[float] = ...,
         refractive_index: float = ...,
         background: str = ...,
-        reflection: str | None = ...,
         background_color: collections.abc.Sequence[float] = ...,
         sun_direction: collections.abc.Sequence[float] = ...,
-        shadow: float = ...,
         up: collections.abc.Sequence[float] = ...,
         floor: bool = ...,
         floor_height: float | None = ...,
         tank_lower: collections.abc.Sequence[float] | None = ...,
         tank_upper: collections.abc.Sequence[float] | None = ...,
         exposure: float = ...,
-        tone_mapping: str = ...,
-        supersampling: int = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict:
@@ -654,14 +524,14 @@ class RenderParams:
     @property
     def background(self) -> str:
         """
-        sky: a bright sky with a sun. plain: background_color everywhere. map: the renderer's environment map. transparent: nothing; the picture's alpha says how much of another background comes through floor and fluid.
+        sky: a bright sky with a sun. plain: background_color everywhere.
         """
     @background.setter
     def background(self, arg1: str) -> None: ...
     @property
     def background_color(self) -> tuple[float, float, float]:
         """
-        Color of the plain background. A transparent picture is exact over it; over others fluid that absorbs colors unequally loses a little of its tint.
+        Color of the plain background.
         """
     @background_color.setter
     def background_color(
@@ -672,13 +542,6 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
-    @property
-    def drop_radius(self) -> float | None:
-        """
-        Radius of the sprite of a particle that is alone; at most radius, which it is if not given. With 0.62 times the particle distance a drop has its particle's volume. Small groups of particles lie between. The depth filter leaves drops round.
-        """
-    @drop_radius.setter
-    def drop_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
     def exposure(self) -> float:
         """
@@ -715,13 +578,6 @@ class RenderParams:
     @radius.setter
     def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def reflection(self) -> str | None:
-        """
-        What the surface mirrors beside the floor: sky, with studio lights, or plain, background_color everywhere, or map, the renderer's environment map. If not given, the background's own, and sky over transparency.
-        """
-    @reflection.setter
-    def reflection(self, arg1: str | None) -> None: ...
-    @property
     def refractive_index(self) -> float:
         """
         1.333 for water. Bends what is seen through the fluid and makes its surface a mirror.
@@ -743,16 +599,9 @@ class RenderParams:
         ],
     ) -> None: ...
     @property
-    def shadow(self) -> float:
-        """
-        How much of the floor's light comes from the sun, and is absorbed in the fluid's shadow. 0: no shadow. 1: black where no light comes through.
-        """
-    @shadow.setter
-    def shadow(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
     def smoothing(self) -> str:
         """
-        How depth is smoothed. bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in front of what is behind it; narrow_range also smooths across steep surfaces and rounds off the edge of what is in front; curvature_flow moves the surface by its curvature, at many times the cost; gaussian melts what is in front and behind together.
+        bilateral keeps steps of depth that are higher than smoothing_range, so that a drop stays in front of what is behind it; gaussian melts them together.
         """
     @smoothing.setter
     def smoothing(self, arg1: str) -> None: ...
@@ -775,7 +624,7 @@ class RenderParams:
     @property
     def smoothing_range(self) -> float | None:
         """
-        Steps of depth higher than this are kept, by all but the gaussian filter; 4 * radius if not given.
+        Steps of depth higher than this are kept by the bilateral filter, 4 * radius if not given.
         """
     @smoothing_range.setter
     def smoothing_range(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
@@ -793,13 +642,6 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
-    @property
-    def supersampling(self) -> int:
-        """
-        The picture is drawn this many times wider and higher, and averaged in linear light: smoother edges, and as many times squared slower. Layers are not.
-        """
-    @supersampling.setter
-    def supersampling(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def tank_lower(self) -> tuple[float, float, float] | None:
         """
@@ -856,17 +698,10 @@ class RenderParams:
     @property
     def thickness_smoothing(self) -> str:
         """
-        How thickness is smoothed: gaussian, or bilateral, which keeps steps higher than thickness_range.
+        As smoothing, for the thickness.
         """
     @thickness_smoothing.setter
     def thickness_smoothing(self, arg1: str) -> None: ...
-    @property
-    def tone_mapping(self) -> str:
-        """
-        How bright light is brought into the picture. soft: values below 0.8 stay as they are. none: values above 1 are cut off. aces: the contrast of film, darker and more colorful.
-        """
-    @tone_mapping.setter
-    def tone_mapping(self, arg1: str) -> None: ...
     @property
     def up(self) -> tuple[float, float, float]:
         """
@@ -882,46 +717,6 @@ class RenderParams:
         ],
     ) -> None: ...
 
-class Mesh:
-    """
-    An opaque thing in the scene, of one color.
-
-    Triangles are counter-clockwise seen from outside, and not seen from inside; each is lit as the flat
-    thing it is. Arrays of other libraries do, as in ``Mesh(mesh.vertices, mesh.faces)`` for one of
-    trimesh.
-
-    Parameters
-    ----------
-    vertices : array_like, shape (n, 3), float32
-        Corners [m].
-    faces : array_like, shape (m, 3), integers
-        The vertices of each triangle, counted from 0.
-    color : three numbers, optional
-        Red, green and blue, linear, 0 to 1.
-
-    Raises
-    ------
-    InvalidParameter
-        If a shape is another, a vertex is not finite, a face names a vertex that is not there, or a
-        color is out of range.
-    WrongType
-        If the arrays are no real or whole numbers.
-    """
-    def __init__(
-        self,
-        vertices: typing.Any,
-        faces: typing.Any,
-        color: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ] = [0.6, 0.6, 0.6],
-    ) -> None: ...
-    @property
-    def color(self) -> tuple[float, float, float]: ...
-    @property
-    def faces(self) -> numpy.typing.NDArray[numpy.int64]: ...
-    @property
-    def vertices(self) -> numpy.typing.NDArray[numpy.float32]: ...
-
 class Renderer:
     """
     Draws particles as a fluid, without a screen.
@@ -930,24 +725,13 @@ class Renderer:
         self,
         width: typing.SupportsInt | typing.SupportsIndex,
         height: typing.SupportsInt | typing.SupportsIndex,
-        device: str = "",
         timed: bool = False,
-        backend: str | None = None,
     ) -> None: ...
     def close(self) -> None: ...
     def layers(self, positions: typing.Any, camera: Camera, params: RenderParams) -> dict: ...
     def render(
-        self,
-        positions: typing.Any,
-        camera: Camera,
-        params: RenderParams,
-        meshes: collections.abc.Sequence[Mesh],
+        self, positions: typing.Any, camera: Camera, params: RenderParams
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
-    def set_environment_map(self, environment_map: typing.Any) -> None: ...
-    @property
-    def asked_for(self) -> bool: ...
-    @property
-    def attempts(self) -> list[str]: ...
     @property
     def closed(self) -> bool: ...
     @property
@@ -956,8 +740,6 @@ class Renderer:
     def info(self) -> dict: ...
     @property
     def report(self) -> dict: ...
-    @property
-    def software(self) -> bool: ...
 
 def ball(
     center: typing.Annotated[
@@ -965,7 +747,6 @@ def ball(
     ],
     radius: typing.SupportsFloat | typing.SupportsIndex,
     spacing: typing.SupportsFloat | typing.SupportsIndex,
-    dimensions: typing.SupportsInt | typing.SupportsIndex = 3,
 ) -> numpy.typing.NDArray[numpy.float32]: ...
 def block(
     lower: typing.Annotated[
@@ -975,34 +756,13 @@ def block(
         collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
     ],
     spacing: typing.SupportsFloat | typing.SupportsIndex,
-    dimensions: typing.SupportsInt | typing.SupportsIndex = 3,
 ) -> numpy.typing.NDArray[numpy.float32]: ...
 def build_info() -> dict[str, str]:
     """
     Compiler, instruction set and libraries of this build.
     """
 
-def egl_cures() -> list[str]:
-    """
-    What to do where rendering, or a GPU for it, is missing.
-    """
-
-def egl_devices() -> list:
-    """
-    Devices that EGL lists.
-    """
-
-def instruction_sets() -> list[str]:
-    """
-    Instruction sets that the solver is compiled for and this processor has, plainest first.
-    """
-
 def usable_threads(requested: typing.SupportsInt | typing.SupportsIndex) -> int:
     """
     Threads used for a request, 0 being all.
-    """
-
-def visible_gpus() -> list[str]:
-    """
-    Device files of GPUs, usable or not.
     """
