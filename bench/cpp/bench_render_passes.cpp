@@ -1,5 +1,5 @@
-/// The passes of a frame, in C++ (cpp) and as shaders (glsl): milliseconds of each, and how much work
-/// there was. The same dam break, in the same picture, of few and of many particles.
+/// The passes of a frame, in C++ (cpp) and as shaders (glsl): milliseconds of each, and how much
+/// work there was. The same dam break, in the same picture, of few and of many particles.
 #include "pbf/render/fluid_renderer.hpp"
 
 #include <benchmark/benchmark.h>
@@ -68,7 +68,7 @@ double taps(const Layers& layers, Real radius, double pixels_per_slope) {
 void draw(benchmark::State& state, SurfacePasses passes) {
   const Cloud& of = cloud(state.range(0));
   const auto height = static_cast<int>(state.range(1));
-  FluidRenderer renderer(height * 16 / 9, height, passes);
+  FluidRenderer renderer(height * 16 / 9, height, "", passes);
   const RenderParams drawn = params(of.spacing);
   const Layers layers = renderer.layers(of.positions, camera(), drawn);
   renderer.render(of.positions, camera(), drawn);  // allocates

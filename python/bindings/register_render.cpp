@@ -101,8 +101,7 @@ class Renderer {
     if (renderer_ == nullptr) {
       throw RendererUnavailable(
           "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make "
-          "the "
-          "renderer without backend");
+          "the renderer without backend");
     }
     return *renderer_;
   }

@@ -134,9 +134,8 @@ def test_no_particles_give_the_background(renderer):
 
 
 def test_row_0_is_the_top(any_renderer):
-    layers = any_renderer.layers(
-        [[0, 0.6, -2]], pbf.Camera(**ALONG_Z), pbf.RenderParams(radius=0.1)
-    )
+    params = pbf.RenderParams(radius=0.1)
+    layers = any_renderer.layers([[0, 0.6, -2]], pbf.Camera(**ALONG_Z), params)
     assert layers["depth"][:60].any()
     assert not layers["depth"][60:].any()
 
@@ -305,7 +304,7 @@ def test_a_report_counts_particles_and_times_passes_when_asked(renderer):
         *("normal", "shadow", "composite", "read_back"),
     }
     assert "OpenGL" in renderer.description
-    assert set(renderer.info) == {"renderer", "vendor", "version", "platform"}
+    assert set(renderer.info) == {"renderer", "vendor", "version", "platform", "choice"}
 
 
 def test_close_is_final_and_may_come_twice():
