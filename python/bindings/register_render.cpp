@@ -99,7 +99,8 @@ class Renderer {
     require_open();
     if (renderer_ == nullptr) {
       throw RendererUnavailable(
-          "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make the "
+          "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make "
+          "the "
           "renderer without backend");
     }
     return *renderer_;
