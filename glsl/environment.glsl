@@ -14,11 +14,13 @@ uniform float u_tile;           // side of a floor tile [m]
 uniform int u_has_tank;
 uniform vec3 u_tank_lower;      // [m]
 uniform vec3 u_tank_upper;      // [m]
+#ifdef SHADOW
 uniform sampler2D u_shadow;     // share of the sun's light that the fluid lets through
 uniform vec3 u_shadow_center;   // [m]
 uniform vec3 u_shadow_x;        // axes of the shadow's picture [1/m]
 uniform vec3 u_shadow_y;
 uniform float u_shadow_strength;  // share of the sun in the floor's light
+#endif
 uniform vec3 u_eye;             // world space [m]
 uniform vec3 u_floor_x;         // unit vectors along the floor
 uniform vec3 u_floor_y;
@@ -85,9 +87,13 @@ float contact_shadow(vec2 p) {
 
 // Light of sun and sky that reaches a point of the floor through the fluid.
 vec3 sunlight(vec3 point) {
+#ifdef SHADOW
   vec3 p = point - u_shadow_center;
   vec2 at = vec2(dot(u_shadow_x, p), dot(u_shadow_y, p)) + 0.5;
   return 1.0 - u_shadow_strength * (1.0 - textureLod(u_shadow, at, 0.0).rgb);
+#else
+  return vec3(1.0);
+#endif
 }
 
 // @param reach  half of a pixel's extent on the floor along u_floor_x and u_floor_y [m]

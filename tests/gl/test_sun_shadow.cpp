@@ -1,3 +1,4 @@
+#include "pbf/render/passes/environment.hpp"
 #include "pbf/render/sun_shadow.hpp"
 
 #include <doctest/doctest.h>
@@ -86,6 +87,39 @@ TEST_CASE("sun_shadow: a ball's shadow lies opposite to the sun, as dark as its 
   // White along the border, so that the texture can be clamped there.
   for (int x = 0; x < map.width; ++x)
     CHECK(map.transmittance[4 * static_cast<std::size_t>(x)] == 255);
+}
+
+TEST_CASE("sun_shadow: in the picture it lies in a rectangle that is little larger") {
+  Points points = spread(200'000, 0.25, [](const Vec3& p) { return p.norm() < 0.25F; });
+  points.colwise() += Vec3(0.3F, 1.0F, -0.2F);
+  RenderParams params = fine();
+  params.sun_direction = {3, 3, 0};
+  Camera camera;  // from above: 100 pixels are a meter, x to the right and -z up
+  camera.eye = {0, 3, 0};
+  camera.up = {0, 0, -1};
+  camera.orthographic = true;
+  camera.height = 4;
+  const SunShadow map = sun_shadow(points, params);
+  const Rectangle seen = shadow_rectangle(map, camera, params, 600, 400);
+  // The middle is at x = -0.7, z = -0.2; the ball's outline is stretched along x.
+  const double half_x = 0.25 * std::sqrt(2.0);
+  const auto is_outside_by = [](double edge, int value) {
+    CHECK(value <= edge);
+    CHECK(value >= edge - 30);  // the Gaussian and its margin, 14 texels of 1 cm, and slanted
+  };
+  is_outside_by(300 + 100 * (-0.7 - half_x), seen.x0);
+  is_outside_by(-(300 + 100 * (-0.7 + half_x)), -seen.x1);
+  is_outside_by(200 + 100 * (0.2 - 0.25), seen.y0);
+  is_outside_by(-(200 + 100 * (0.2 + 0.25)), -seen.y1);
+  // With a corner behind the eye it may be anywhere; without shadow it is nowhere.
+  camera.orthographic = false;
+  camera.eye = {-0.7F, 0.5F, -0.2F};
+  camera.target = {5, 0.4F, -0.2F};
+  camera.up = {0, 1, 0};
+  const Rectangle all = shadow_rectangle(map, camera, params, 600, 400);
+  CHECK((all.x0 == 0 && all.y0 == 0 && all.x1 == 600 && all.y1 == 400));
+  const Rectangle none = shadow_rectangle(SunShadow{}, camera, params, 600, 400);
+  CHECK((none.x0 == none.x1 && none.y0 == none.y1));
 }
 
 TEST_CASE("sun_shadow: a particle that flew off does not coarsen the picture") {

@@ -25,6 +25,7 @@ struct SunShadow {
   Vec3 center = Vec3::Zero(), x = Vec3::Zero(), y = Vec3::Zero();
   /// T in red, green and blue, 255 is all; one texel after the other, 255 along the border.
   std::vector<std::uint8_t> transmittance = {255, 255, 255, 255};
+  [[nodiscard]] bool casts_none() const { return width == 1 && height == 1; }
 };
 
 /// One white texel where there is no shadow: without fluid and meshes, with the sun below the

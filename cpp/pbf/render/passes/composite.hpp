@@ -7,6 +7,8 @@
 #include "pbf/render/passes/fluid_tiles.hpp"
 #include "pbf/render/passes/opaque_meshes.hpp"
 
+#include <array>
+
 namespace pbf {
 
 /// What composite draws from: smoothed affine depth, smoothed thickness [m], normal in eye space.
@@ -35,10 +37,16 @@ class Composite {
                   const MeshTargets* meshes = nullptr);
 
  private:
+  void draw_background(const Surroundings& surroundings,
+                       const Camera& camera,
+                       const RenderParams& params,
+                       std::array<int, 2> size);
   ProgramVariants background_;
   ProgramVariants fluid_, spheres_;
   ProgramVariants tank_edges_;
   OpaqueMeshes opaque_meshes_;
+  Buffer squares_;
+  VertexArray squares_array_;
   VertexArray no_vertices_;
 };
 

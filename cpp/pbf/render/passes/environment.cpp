@@ -46,14 +46,49 @@ const char* name_of(Reflection reflection) {
 
 }  // namespace
 
-std::vector<std::string> environment_defines(const RenderParams& params) {
+std::vector<std::string> environment_defines(const RenderParams& params, bool with_shadow) {
   std::vector<std::string> defines{
       "TONE tone_" + std::string(Choices<ToneMapping>::names.at(
                          static_cast<std::size_t>(params.tone_mapping))),
       "BACKDROP " + std::string(name_of(params.background)),
       "MIRRORED " + std::string(name_of(params.reflection_in_force()))};
   if (params.shows_map()) defines.emplace_back("MAP");
+  if (with_shadow) defines.emplace_back("SHADOW");
   return defines;
+}
+
+Rectangle shadow_rectangle(const SunShadow& shadow,
+                           const Camera& camera,
+                           const RenderParams& params,
+                           int width,
+                           int height) {
+  if (shadow.casts_none()) return {0, 0, 0, 0};
+  const Vec3 up = params.up.normalized();
+  const Vec3 sun = params.sun_direction.normalized();
+  const Eigen::Matrix4f view = camera.view();
+  const Vec3 across_x = shadow.x / shadow.x.squaredNorm();
+  const Vec3 across_y = shadow.y / shadow.y.squaredNorm();
+  Eigen::Array2f low(1, 1), high(-1, -1);  // of the picture, -1 to 1
+  for (int k = 0; k < 4; ++k) {
+    const Real u = (k & 1) == 0 ? -0.5F : 0.5F;
+    const Real v = (k & 2) == 0 ? -0.5F : 0.5F;
+    const Vec3 corner = shadow.center + u * across_x + v * across_y;
+    const Vec3 on_floor = corner - (up.dot(corner) - floor_height(params, up)) / up.dot(sun) * sun;
+    const Vec3 p = view.topLeftCorner<3, 3>() * on_floor + view.topRightCorner<3, 1>();
+    if (-p.z() < camera.near) return {0, 0, width, height};
+    const float depth = camera.orthographic ? 1 : -p.z();
+    const Eigen::Array2f at =
+        p.head<2>().array() / (depth * camera.half_height()) *
+        Eigen::Array2f(static_cast<float>(height) / static_cast<float>(width), 1);
+    low = low.min(at);
+    high = high.max(at);
+  }
+  low = 0.5F * low.max(-1).min(1) + 0.5F;
+  high = 0.5F * high.max(-1).min(1) + 0.5F;
+  const auto w = static_cast<float>(width);
+  const auto h = static_cast<float>(height);
+  return {static_cast<int>(low.x() * w), static_cast<int>(low.y() * h),
+          static_cast<int>(std::ceil(high.x() * w)), static_cast<int>(std::ceil(high.y() * h))};
 }
 
 void set_environment(const Program& program,

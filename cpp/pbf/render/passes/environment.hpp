@@ -21,7 +21,19 @@ enum Unit { kDepth, kThickness, kNormal, kShadow, kMap, kMeshLight, kMeshDepth, 
 
 /// The functions that stand for what is asked for, by their names in glsl/environment.glsl and
 /// display.glsl.
-std::vector<std::string> environment_defines(const RenderParams& params);
+std::vector<std::string> environment_defines(const RenderParams& params, bool with_shadow);
+
+/// Pixels, row 0 below: x0 <= x < x1, y0 <= y < y1.
+struct Rectangle {
+  int x0, y0, x1, y1;
+};
+
+/// Where on the floor the shadow can be seen.
+Rectangle shadow_rectangle(const SunShadow& shadow,
+                           const Camera& camera,
+                           const RenderParams& params,
+                           int width,
+                           int height);
 
 /// Sets the uniforms of these two files. The program must be in use, and the shadow bound.
 void set_environment(const Program& program,

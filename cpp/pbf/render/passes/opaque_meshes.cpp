@@ -29,7 +29,7 @@ void OpaqueMeshes::operator()(const Meshes& meshes,
   to.framebuffer.clear(1, {0, 0, 0, 0});
   to.framebuffer.clear(2, {kNothing, 0, 0, 0});
   to.framebuffer.clear_depth();
-  const Program& program = program_.with(environment_defines(params));
+  const Program& program = program_.with(environment_defines(params, false));
   program.use();
   set_environment(program, surroundings, camera, params);
   set_draw_state(Blend::nearest);
