@@ -97,12 +97,15 @@ Ray refracted(vec3 position, vec3 view, vec3 n, float thickness, float to_mesh, 
                      distance_to_wall(position, straight, outward));
   to_end = min(to_end, to_mesh);
   float is_bound = smoothstep(0.6, 0.9, thickness / max(to_end, 1e-3 * u_tile));
-  // And halfway of the bent one there must be fluid as well.
-  vec3 last = to_mesh < bound.way ? position + to_mesh * once : bound.at;
-  vec3 halfway = mat3(u_view) * (0.5 * (position + last) - u_eye);
-  ivec2 there = ivec2(clamp(pixel_of(halfway), vec2(0.0), u_size.xy - 1.0));
-  float between = texelFetch(u_thickness, there, 0).r / max(min(bound.way, to_mesh), 1e-6);
-  is_bound *= body * smoothstep(0.1, 0.3, between);
+  // And along the bent one there must be fluid as well.
+  float bent_way = min(bound.way, to_mesh);
+  float between = 0.0;
+  for (int k = 1; k <= 4; ++k) {
+    vec3 along = mat3(u_view) * (position + 0.2 * float(k) * bent_way * once - u_eye);
+    ivec2 there = ivec2(clamp(pixel_of(along), vec2(0.0), u_size.xy - 1.0));
+    between += 0.25 * min(texelFetch(u_thickness, there, 0).r / max(0.4 * bent_way, 1e-6), 1.0);
+  }
+  is_bound *= body * smoothstep(0.2, 0.9, between);
   return Ray(mix(position, bound.at, is_bound), normalize(mix(twice, bound.direction, is_bound)),
              mix(thickness, bound.way, is_bound), normalize(mix(twice, once, is_bound)));
 }
