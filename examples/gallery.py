@@ -91,11 +91,11 @@ def collision() -> Image:
 def speed() -> Image:
     """Show the speed of a dam break, on the fluid and on the particles themselves."""
     scene = pbf.Scene.builtin("dam_break", color_by="speed")
-    camera = {"target": [1.05, 0.33, 0.25], "eye": [1.9, 1.15, 2.7], "fov_y": 62.0}
+    camera = {"target": [1.2, 0.42, 0.25], "eye": [1.9, 1.15, 2.8], "fov_y": 62.0}
     state = state_of(scene, 0.5)
     fluid = scene.replace(camera=camera, legend="")
-    spheres = scene.replace(camera=camera, style="spheres", color_range=[0.0, 3.5])
-    fluid = fluid.replace(color_range=[0.0, 3.5])
+    spheres = scene.replace(camera=camera, style="spheres", color_range=[0.0, 4.0])
+    fluid = fluid.replace(color_range=[0.0, 4.0])
     half = (SIZE[0] // 2, SIZE[1])
     return beside(draw(fluid, state, half), draw(spheres, state, half))
 
@@ -108,7 +108,7 @@ def pressure() -> Image:
 
 def taylor_green() -> Image:
     """Show Taylor and Green's vortices in a periodic plane, by speed and by where they began."""
-    spacing, loose = 0.0125, 0.98
+    spacing, loose = 0.016, 0.98
     box = pbf.Box((0, 0, 0), (1, 1, 0.1), periodic=(True, True, False))
     count = round(loose / spacing)
     grid = (np.arange(count) + 0.5) / count
@@ -135,12 +135,13 @@ def taylor_green() -> Image:
         background="plain",
         floor=False,
         sun_direction=(-0.3, 0.5, 1),
+        tone_mapping="none",
         supersampling=2,
     )
     by_speed = params.replace(legend="speed [m/s]")
     by_start = params.replace(colormap="coolwarm")
     speeds = np.linalg.norm(sim.velocities, axis=1)
-    with pbf.Renderer(720, 540) as wide, pbf.Renderer(540, 540) as square:
+    with pbf.Renderer(600, 450) as wide, pbf.Renderer(450, 450) as square:
         return beside(
             wide.render(sim.positions, with_room, by_speed, values=speeds),
             square.render(sim.positions, view, by_start, values=x),
@@ -186,8 +187,11 @@ def smoothing() -> Image:
 def paper() -> Image:
     """Show a splash over white, as it would stand in a paper."""
     scene = pbf.Scene.load(SCENES / "crown.toml")
-    white = {"background": "plain", "background_color": [1.0, 1.0, 1.0], "floor": False}
-    return draw(scene.replace(render=white), state_of(scene, 0.075))
+    juice = {"absorption": [6.0, 40.0, 190.0], "scatter": [0.75, 0.24, 0.01]}
+    look = {"background": "transparent", "reflection": "sky", "floor": False}
+    image = draw(scene.replace(render=juice | look), state_of(scene, 0.075))
+    alpha = image[..., 3:] / 255
+    return np.rint(alpha * image + (1 - alpha) * 255).astype(np.uint8)
 
 
 PICTURES: list[Callable[[], Image]] = [

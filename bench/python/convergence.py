@@ -376,7 +376,13 @@ def draw_settling(results: Table, folder: Path) -> None:
         for way, row in results[key].items():
             axis.semilogy(row["time"], row["energy"], "--" if "plain" in way else "-", label=way)
         axis.set(xlabel="time [s]", ylabel="kinetic energy [J/kg]")
-        axis.legend(fontsize="x-small")
+        axis.legend(
+            loc="upper center",
+            bbox_to_anchor=(0.5, -0.17),
+            ncols=2,
+            frameon=False,
+            fontsize="x-small",
+        )  # beside the curves, which fill the panel
     axes[0].set_title("kernels")
     axes[1].set_title("warm starts, wendland")
     save(figure, folder / "settling.png")

@@ -74,7 +74,9 @@ def plot(result: dict[str, Any], figure: Any) -> None:
     axes = figure.subplots()
     for index, (name, fronts) in enumerate(series["Z"].items()):
         axes.plot(series["T"], fronts, color=f"C{index}", label=name)
-        axes.plot(series["T"], series["fastest"][name], ":", color=f"C{index}", lw=0.8)
+    for index, fastest in enumerate(series["fastest"].values()):  # on the fronts, which hide them
+        label = None if index else "fastest particle"
+        axes.plot(series["T"], fastest, "k:", lw=1.0, label=label)
     axes.plot(series["T_measured"], series["Z_measured"], "ko", ms=4, label="Martin & Moyce")
-    axes.set(xlabel="T = t √(2g/a)", ylabel="Z = x/a (dotted: fastest particle)")
+    axes.set(xlabel="T = t √(2g/a)", ylabel="Z = x/a")
     axes.legend()

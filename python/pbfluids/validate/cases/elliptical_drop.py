@@ -63,7 +63,7 @@ def axes_of(simulation: Simulation) -> Vectors:
 def plot(result: dict[str, Any], figure: Any) -> None:
     """Draw the axes over time, and the drop at the end."""
     series = result["series"]
-    left, right = figure.subplots(1, 2)
+    left, right = figure.subplots(1, 2, width_ratios=(2, 1))
     for k in range(2):
         left.plot(series["t"], series["exact"][k], "k-", lw=0.8, label=None if k else "exact")
         for index, (name, found) in enumerate(series["found"].items()):
@@ -72,8 +72,8 @@ def plot(result: dict[str, Any], figure: Any) -> None:
             )
     left.set(xlabel="t [s]", ylabel="semi-axis / 1 m")
     left.legend()
-    right.plot(*series["x"], ".", ms=0.7)
     angle = np.linspace(0, 2 * np.pi, 200)
     a, b = series["exact"][0][-1], series["exact"][1][-1]
-    right.plot(a * np.cos(angle), b * np.sin(angle), "k-", lw=0.8)
+    right.plot(a * np.cos(angle), b * np.sin(angle), "k-", lw=1.5)
+    right.plot(*series["x"], ".", ms=0.3)  # over the outline, which would hide some
     right.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")

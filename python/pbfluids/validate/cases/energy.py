@@ -121,4 +121,6 @@ def plot(result: dict[str, Any], figure: Any) -> None:
             t = STEP * np.arange(len(energies))
             axes.plot(t, energies, lw=0.9, label=name)
         axes.set(title=scene, xlabel="t [s]", ylabel="energy [J/kg]")
-    axes.legend(fontsize="small")
+    figure.legend(
+        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize="small"
+    )

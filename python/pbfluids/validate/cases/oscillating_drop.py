@@ -72,4 +72,4 @@ def plot(result: dict[str, Any], figure: Any) -> None:
         axes.plot(series["t"], series["exact"][k], "k-", lw=0.8, label=None if k else "exact")
         axes.plot(series["t"], series["found"][k], lw=1.2, label=name)
     axes.set(xlabel="t [s]", ylabel="semi-axis / 1 m")
-    axes.legend()
+    figure.legend(loc="outside lower center", ncols=3)

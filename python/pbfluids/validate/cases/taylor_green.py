@@ -105,4 +105,4 @@ def plot(result: dict[str, Any], figure: Any) -> None:
         axes.plot(series["t"], amplitudes, lw=1, label=name)
     axes.axhline(0, color="k", lw=0.5)
     axes.set(xlabel="t [s]", ylabel="amplitude")
-    axes.legend(fontsize="small")
+    figure.legend(loc="outside right center", fontsize="small")
