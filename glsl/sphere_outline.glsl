@@ -1,5 +1,4 @@
-// sphere_outline.glsl: a rectangle of the picture around the exact outline of a sphere. Its corners
-// come counter-clockwise, so that culled back faces cost nothing.
+// sphere_outline.glsl: a rectangle of the picture around the exact outline of a sphere.
 // Least and greatest slope x/depth of the part of a circle (center x, depth z) that lies beyond the
 // near plane, seen from the origin: tangents, or where the circle meets the plane (Mara & McGuire
 // 2013).
@@ -18,12 +17,12 @@ vec2 slopes(float x, float z, float radius, float near) {
   return result;
 }
 
-// Position of a vertex of the quad around a sphere (center in eye space) [m]; out of sight if the
-// sphere is.
-vec4 outline_corner(vec3 center, float radius) {
+// Its lower left and upper right corner, -1 to 1 across the picture; out of sight if the sphere
+// (center in eye space) [m] is.
+vec4 outline(vec3 center, float radius) {
   float near = u_lens.z;
   if (-center.z + radius <= near || -center.z - radius >= u_lens.w) {
-    return vec4(2.0, 2.0, 0.0, 1.0);
+    return vec4(2.0);
   }
   vec2 low = center.xy - radius;
   vec2 high = center.xy + radius;
@@ -37,6 +36,12 @@ vec4 outline_corner(vec3 center, float radius) {
   vec2 margin = 0.02 / u_size.xy;
   low = clamp(low / u_lens.xy - margin, -1.0, 1.0);
   high = clamp(high / u_lens.xy + margin, -1.0, 1.0);
+  return vec4(low, high);
+}
+
+// Position of a vertex of a quad, counter-clockwise, so that culled back faces cost nothing.
+vec4 outline_corner(vec3 center, float radius) {
+  vec4 box = outline(center, radius);
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  return vec4(mix(low, high, corner), 0.0, 1.0);
+  return vec4(mix(box.xy, box.zw, corner), 0.0, 1.0);
 }

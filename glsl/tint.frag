@@ -2,14 +2,14 @@
 // and weight, for ADD blending. What is at the surface counts, and what is a radius behind it a
 // third of that: the color seen is that of the fluid that is seen.
 uniform sampler2D u_depth;
-uniform vec3 u_tint_size;  // of the target [pixels]
+uniform vec3 u_target_size;  // [pixels]
 flat in vec4 v_sphere;  // center in eye space and radius [m]
 flat in vec3 v_color;    // linear
 layout(location = 0) out vec4 o_tint;
 
 void main() {
   // The target is coarser than the picture: the front of the pixels around counts.
-  vec2 at = gl_FragCoord.xy * u_size.xy / u_tint_size.xy;
+  vec2 at = gl_FragCoord.xy * u_size.xy / u_target_size.xy;
   ivec2 last = ivec2(u_size.xy) - 1;
   ivec2 low = min(ivec2(at - 0.5), last);
   ivec2 high = min(low + 1, last);

@@ -17,12 +17,12 @@ TEST_CASE("spheres: depth, normal and color are those of the nearest sphere, in 
   const Texture surface(gl.width(), gl.height(), Format::rgba32f);
   const Texture nearest(gl.width(), gl.height(), Format::depth32f);
   const Framebuffer out({&depth, &surface, &nearest});
-  const Spheres pass(glsl_source);
+  Spheres pass(glsl_source);
   for (const bool turned : {false, true}) {
     const Points x = turned ? Points(centers.rowwise().reverse()) : centers;
     const Colors colors = turned ? Colors{0xFFFFFF, 0x000001} : Colors{0x000001, 0xFFFFFF};
     ColoredParticles particles;
-    particles.upload(x, colors, Vec3::Zero());
+    particles.upload(x, colors, radius, Vec3::Zero(), gl.frame());
     pass(particles, radius, out);
     const auto a = gl.read(depth);
     const auto normals = gl.read(surface, 3);

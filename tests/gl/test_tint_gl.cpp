@@ -13,7 +13,7 @@ TEST_CASE("tint: the mean of the colors along a ray, weighted by chord and nearn
   camera.height = 2;
   const GlFixture gl(65, 65, camera);
   const Real radius = 0.5F;
-  const Tint pass(glsl_source);
+  Tint pass(glsl_source);
   for (const double gap : {0.0, 0.2, 1.0}) {
     Points x(3, 2);
     x.col(0) = Vec3(0, 0, -2);
@@ -22,7 +22,7 @@ TEST_CASE("tint: the mean of the colors along a ray, weighted by chord and nearn
     const Texture sums(65, 65, Format::rgba32f);
     const Framebuffer out({&sums});
     ColoredParticles particles;
-    particles.upload(x, {0xFF0000, 0x00FF00}, camera.eye);
+    particles.upload(x, {0xFF0000, 0x00FF00}, radius, camera.eye, gl.frame());
     pass(particles, depth, radius, out);
     std::vector<float> data(65UL * 65 * 4);
     out.read(GL_RGBA, GL_FLOAT, data.data());
@@ -43,8 +43,8 @@ TEST_CASE("tint: nothing is added where there is no fluid") {
   const Texture sums(gl.width(), gl.height(), Format::rgba32f);
   const Framebuffer out({&sums});
   ColoredParticles particles;
-  const Tint pass(glsl_source);
-  particles.upload(Points(Vec3(0, 0, -2)), {0xFFFFFF}, Vec3::Zero());
+  Tint pass(glsl_source);
+  particles.upload(Points(Vec3(0, 0, -2)), {0xFFFFFF}, 0.5F, Vec3::Zero(), gl.frame());
   pass(particles, depth, 0.5F, out);
   for (const float sum : gl.read(sums, 3)) CHECK(sum == 0);
 }

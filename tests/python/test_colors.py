@@ -304,3 +304,18 @@ def test_letters_are_sharp_ink_on_paper():
     ink = image[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1, :3].max(axis=-1)
     assert ink.min() < 60
     assert ink.max() > 180
+
+
+@pytest.mark.parametrize("radius", [0.02, 0.15, 0.45])  # from points to what only quads can draw
+@pytest.mark.parametrize("x", [0.0, 0.75, -0.8])  # in the middle, and with a center out of sight
+def test_no_pixel_of_a_sphere_is_lost_whatever_its_size_and_place(radius, x):
+    camera = pbf.Camera(**ALONG_Z, orthographic=True, height=1.2)  # a pixel is 1/400 m
+    params = pbf.RenderParams(style="spheres", sphere_radius=radius)
+    with pbf.Renderer(600, 480) as large:
+        depth = large.layers([[x, 0.1, -2]], camera, params)["depth"]
+    u, v = np.meshgrid((np.arange(600) - 299.5) / 400, -(np.arange(480) - 239.5) / 400)
+    height2 = radius**2 - (u - x) ** 2 - (v - 0.1) ** 2
+    inside, outside = height2 > 1e-5, height2 < -1e-5
+    expected = 2 - np.sqrt(np.maximum(height2, 0))
+    assert depth[inside] == pytest.approx(expected[inside], abs=2e-5)
+    assert not depth[outside].any()

@@ -217,7 +217,8 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
   stage("upload", [&] {
     const Colors all_alike(static_cast<std::size_t>(positions.cols()),
                            encoded(params.sphere_color));
-    passes_->colored.upload(positions, colors.empty() ? all_alike : colors, camera.eye);
+    passes_->colored.upload(positions, colors.empty() ? all_alike : colors, radius, camera.eye,
+                            frame_block(camera, to.width, to.height));
     to.tiles.find(positions, camera, radius);
   });
   if (to.spheres == nullptr) to.spheres = std::make_unique<Targets::Spheres>(to);
@@ -237,7 +238,8 @@ const Texture& FluidRenderer::draw_tint(const PointsView& positions,
     to.tint = std::make_unique<Target>((to.width + 1) / 2, (to.height + 1) / 2, Format::rgba32f);
   }
   stage("tint", [&] {
-    passes_->colored.upload(positions, colors, camera.eye);
+    passes_->colored.upload(positions, colors, params.radius, camera.eye,
+                            frame_block(camera, to.width, to.height));
     passes_->tint(passes_->colored, depth, params.radius, to.tint->framebuffer);
   });
   return to.tint->texture;

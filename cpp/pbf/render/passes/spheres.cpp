@@ -1,5 +1,6 @@
 #include "pbf/render/passes/spheres.hpp"
 
+#include "pbf/render/nearest.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
 
 #include <bit>
@@ -8,13 +9,27 @@
 namespace pbf {
 namespace {
 
+/// Less than Mesa's software driver can draw, which is 255 pixels; the graphics card that draws less
+/// has not been built.
+constexpr Real kLargestPoint = 200;
+
 /// As glsl/color.glsl reads it.
 float packed(std::uint32_t color) { return std::bit_cast<float>(0x3F000000U | color); }
 
 }  // namespace
 
-void ColoredParticles::upload(const PointsView& positions, const Colors& colors, const Vec3& eye) {
+void ColoredParticles::upload(const PointsView& positions,
+                              const Colors& colors,
+                              Real radius,
+                              const Vec3& eye,
+                              const FrameBlock& frame) {
   const Index n = positions.cols();
+  // Off the axis the outline of a sphere is longer, by up to 1 / cos².
+  const bool perspective = frame.size[2] > 0.5F;
+  const Real scale = perspective ? 1 / nearest_front(positions, radius, frame, 0) : 1;
+  const Real stretch =
+      perspective ? 1 + frame.lens[0] * frame.lens[0] + frame.lens[1] * frame.lens[1] : 1;
+  as_points_ = 2 * radius * frame.size[3] * scale * stretch < kLargestPoint;
   // Sorted by shells around the eye: the order within one is that in which they came.
   constexpr int kShells = 4096;
   Real farthest2 = 0;
@@ -42,24 +57,39 @@ void ColoredParticles::upload(const PointsView& positions, const Colors& colors,
 
 void ColoredParticles::draw(Blend blend) const {
   set_draw_state(blend);
-  array_.bind();
-  if (count_ > 0) glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+  (as_points_ ? points_ : quads_).bind();
+  if (count_ == 0) return;
+  if (as_points_) {
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glDrawArrays(GL_POINTS, 0, count_);
+  } else {
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+  }
+}
+
+const Program& ColoredParticles::choose(ProgramVariants& programs,
+                                        std::vector<std::string> defines) const {
+  if (as_points_) defines.emplace_back("POINTS");
+  return programs.with(defines);
 }
 
 Spheres::Spheres(const GlslSource& source)
     : program_(source,
                {.vertex = {"frame.glsl", "sphere_outline.glsl", "spheres.vert"},
                 .fragment = {"frame.glsl", "sphere_hit.glsl", "spheres.frag"},
-                .defines = {}}) {}
+                .defines = {}}) {
+  (void)program_.with({"POINTS"});  // an error in a shader shows now
+}
 
-void Spheres::operator()(const ColoredParticles& particles,
-                         Real radius,
-                         const Framebuffer& out) const {
+void Spheres::operator()(const ColoredParticles& particles, Real radius, const Framebuffer& out) {
   out.clear(0, {kNothing, 0, 0, 0});
   out.clear(1, {0, 0, 0, 0});
   out.clear_depth();
-  program_.use();
-  program_.set("u_radius", radius);
+  const Program& program = particles.choose(program_, {});
+  program.use();
+  program.set("u_radius", radius);
+  program.set("u_target_size",
+              Vec3(static_cast<Real>(out.width()), static_cast<Real>(out.height()), 0));
   particles.draw(Blend::nearest);
 }
 

@@ -19,10 +19,10 @@ class Tint {
   void operator()(const ColoredParticles& particles,
                   const Texture& depth,
                   Real radius,
-                  const Framebuffer& out) const;
+                  const Framebuffer& out);
 
  private:
-  Program program_;
+  ProgramVariants program_;
 };
 
 }  // namespace pbf
