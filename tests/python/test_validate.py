@@ -52,11 +52,13 @@ def test_the_front_of_the_dam_break_is_that_of_the_experiment(records) -> None:
 
 def test_the_tank_keeps_its_height_and_density_and_bears_its_weight(records) -> None:
     tank = records["hydrostatic_tank"]
-    for words in ("height", "mean density", "first layer", "1 − R²", "in the last second"):
+    for words in ("height", "mean density", "first layer", "in the last second"):
         assert all(check["passed"] for check in tank["checks"] if words in check["name"]), tank[
             "checks"
         ]
-    assert values(tank, "bottom against") == pytest.approx([0, 0], abs=10)
+    # Of twenty layers the lowest counts for more than of a hundred.
+    assert values(tank, "1 − R²") == pytest.approx([0, 0], abs=0.02)
+    assert values(tank, "bottom against") == pytest.approx([0, 0], abs=6)
 
 
 def test_the_drops_follow_their_equations(records) -> None:

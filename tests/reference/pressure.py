@@ -31,13 +31,13 @@ def virial_pressures(x: Array, totals: Array, near: Neighbors, fluid: Fluid, dt:
 
     p_i = V / (2 n) sum_k (p'_i + p'_k) (x_i - x_k).(-grad W_ik)      p' = -rho0 total / dt^2
 
-    n dimensions, k over neighbors and boundary particles; p' = 0 for the latter.
+    n dimensions, k over neighbors and boundary particles; p'_k = p'_i / 3 for the latter.
     """
     volume, _ = calibration(fluid)
     p = -fluid.rest_density * totals / dt**2
     r, r_q = near.r(x), near.r_boundary(x)
     pairs = (p[near.i] + p[near.j]) * -np.sum(r * kernel(fluid, r)[1], axis=1)
-    walls = p[near.boundary_i] * -np.sum(r_q * kernel(fluid, r_q)[1], axis=1)
+    walls = (1 + 1 / 3) * p[near.boundary_i] * -np.sum(r_q * kernel(fluid, r_q)[1], axis=1)
     return volume / (2 * fluid.dimensions) * (near.sum(pairs) + near.sum_boundary(walls))
 
 

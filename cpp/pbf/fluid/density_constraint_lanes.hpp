@@ -79,6 +79,9 @@ void pressures(const Kernel& VW,
   });
 }
 
+/// Of a particle's p̂ that stands for a boundary particle's.
+inline constexpr Real kBoundaryShare = 1.0F / 3;
+
 /// The sum of fluid/pressure.hpp's mean virial, without its factor.
 template <class Kernel>
 void virials(const Kernel& VW, const Stretch& at, const Record* x_p, Record* virial) {
@@ -94,7 +97,7 @@ void virials(const Kernel& VW, const Stretch& at, const Record* x_p, Record* vir
     slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
       const Vec3Lanes r = i.xyz - q;
       const Lanes r2 = dot(r, r);
-      sum += i.w * (VW.slope(r2) * r2);
+      sum += Lanes(1 + kBoundaryShare) * i.w * (VW.slope(r2) * r2);
     });
     store_records(virial + slice.first, i.xyz, sum);
   });
