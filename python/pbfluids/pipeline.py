@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import queue
+import signal
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 __all__ = ["run"]
 
 _END = object()
+_PATIENCE = 0.05  # longest that a wait keeps Ctrl-C waiting [s]
 
 
 def run(
@@ -53,6 +56,26 @@ def run(
     line.check()
 
 
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Let Ctrl-C wait for the end of this block.
+
+    Queues are Python: what interrupts one while it takes its lock leaves the lock taken for ever.
+    """
+    pending: list[Any] = []
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or before is None:
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *arguments: pending.append(arguments))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if pending and callable(before):
+            before(*pending[0])
+
+
 class _Line:
     """The threads of the stages and the queues between them."""
 
@@ -73,20 +96,37 @@ class _Line:
 
     def put(self, item: Any) -> bool:
         """Hand over an item; whether that makes sense, since no stage has failed."""
-        self._first.put((self._count, item))
+        self._put((self._count, item))
         self._count += 1
         return self._error is None
 
     def put_end(self) -> None:
-        self._first.put(_END)
+        self._put(_END)
+
+    def _put(self, entry: Any) -> None:
+        waiting = True
+        while waiting:
+            with _undisturbed():
+                try:
+                    self._first.put(entry, timeout=_PATIENCE)
+                    waiting = False
+                except queue.Full:
+                    pass
 
     def give(self, finished: Callable[[Any], None], *, wait: bool) -> None:
         """Pass on what has gone through: so far, or all until the end."""
-        while wait or not self._done.empty():
-            entry = self._done.get()
+        while True:
+            entry = None
+            with _undisturbed():
+                try:
+                    entry = self._done.get(timeout=_PATIENCE if wait else 0)
+                except queue.Empty:
+                    if not wait:
+                        return
             if entry is _END:
                 return
-            finished(entry[1])
+            if entry is not None:
+                finished(entry[1])
 
     def drop(self) -> None:
         """Let each stage end what it has at work, and no more."""
@@ -96,7 +136,9 @@ class _Line:
 
     def join(self) -> None:
         for thread in self._threads:
-            thread.join()
+            while thread.is_alive():
+                with _undisturbed():
+                    thread.join(_PATIENCE)
 
     def check(self) -> None:
         if self._error is not None:
