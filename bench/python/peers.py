@@ -264,7 +264,6 @@ class System:
     needs: str  # said if it does not start
     work: tuple[str, ...] = tuple(WORK)
     environment: dict[str, str] = field(default_factory=dict)
-    kernel: str = "poly6_spiky"  # of its densities
 
 
 def six_iterations(case: DamBreak) -> PBFluids:
@@ -295,19 +294,10 @@ SYSTEMS: dict[str, System] = {
         six_iterations, "pbfluids", needs="an installed pbfluids", work=("density constraint",)
     ),
     "pbfluids, as it comes": System(
-        as_it_comes,
-        "pbfluids",
-        needs="an installed pbfluids",
-        work=(SECOND,),
-        kernel="wendland",
+        as_it_comes, "pbfluids", needs="an installed pbfluids", work=(SECOND,)
     ),
     "pySPlisHSPlasH DFSPH": System(
-        divergence_free,
-        "pySPlisHSPlasH",
-        LIBGL,
-        work=(SECOND,),
-        environment=PRELOAD,
-        kernel="cubic_spline",
+        divergence_free, "pySPlisHSPlasH", LIBGL, work=(SECOND,), environment=PRELOAD
     ),
     "pySPlisHSPlasH PBF": System(
         position_based,

@@ -108,14 +108,10 @@ class Child:
         self.process.join()
 
 
-def compression(
-    positions: NDArray[np.float32], case: DamBreak, kernel: str = "poly6_spiky"
-) -> tuple[float, float]:
+def compression(positions: NDArray[np.float32], case: DamBreak) -> tuple[float, float]:
     """Measure every solver with one ruler: max(ρ/ρ0 − 1, 0) away from the walls, mean and most."""
     h = 2 * case.spacing
-    density = pbf.operators.density(
-        positions, support_radius=h, rest_density=1, kernel=kernel, num_threads=1
-    )
+    density = pbf.operators.density(positions, support_radius=h, rest_density=1, num_threads=1)
     away = ((positions > h) & (positions < np.subtract(case.tank, h))).all(axis=1)
     above = np.maximum(density[away] - 1, 0)
     return float(above.mean()), float(above.max())
@@ -170,14 +166,12 @@ def measure(work: str, case: DamBreak, plan: Plan, skipped: dict[str, str]) -> l
 def measure_second(case: DamBreak, turns: int, skipped: dict[str, str]) -> list[dict[str, Any]]:
     """Let the solvers take turns until each has simulated a second; return a record of each."""
     solvers = children(SECOND, case, skipped)
-    keys = ("ms", "steps", "mean_compression", "max_compression", "own_mean", "own_max")
+    keys = ("ms", "steps", "mean_compression", "max_compression")
     records = [{"system": s.name, **{key: [] for key in keys}} for s in solvers]
     for _ in range(turns):
         for solver, record in zip(solvers, records, strict=True):
             block = solver.run(1 / turns)
-            common = compression(block.positions, case)
-            own = compression(block.positions, case, SYSTEMS[solver.name].kernel)
-            values = (block.milliseconds[0], block.steps, *common, *own)
+            values = (block.milliseconds[0], block.steps, *compression(block.positions, case))
             for key, value in zip(keys, values, strict=True):
                 record[key].append(value)
     for solver in solvers:
@@ -259,8 +253,7 @@ def second_rows(records: list[dict[str, Any]]) -> list[str]:
     return [
         f"| {r['system']} | {sum(r['ms']) / 1e3:.1f} | {sum(r['ms']) / ours:.1f} "
         f"| {sum(r['steps'])} | {statistics.fmean(r['mean_compression']):.2%} "
-        f"| {statistics.fmean(r['max_compression']):.1%} "
-        f"| {statistics.fmean(r['own_mean']):.2%} | {statistics.fmean(r['own_max']):.1%} |"
+        f"| {statistics.fmean(r['max_compression']):.1%} |"
         for r in records
     ]
 
@@ -288,9 +281,8 @@ def tables(found: dict[str, Any]) -> str:
             f"A simulated second, in turns of 1/{plan['turns']} s, each solver with the time steps "
             "and the tolerance it comes with:",
             "",
-            "| solver | s | times ours | steps | mean compression | of the worst particle "
-            "| mean by its own kernel | worst by its own kernel |",
-            "|---|---:|---:|---:|---:|---:|---:|---:|",
+            "| solver | s | times ours | steps | mean compression | of the worst particle |",
+            "|---|---:|---:|---:|---:|---:|",
             *second_rows(found["second"]),
         ]
     )
