@@ -194,7 +194,15 @@ def measure(case: Case, names: list[str], turns: int, frames: int, pictures: Pat
         except EOFError:
             print(f"without {name}: it did not start", file=sys.stderr)
             continue
-        records.append(asdict(case) | {"name": name, "particles": drawers[-1].particles, "ms": []})
+        records.append(
+            asdict(case)
+            | {
+                "cloud": Path(case.cloud).name,
+                "name": name,
+                "particles": drawers[-1].particles,
+                "ms": [],
+            }
+        )
     for _ in range(turns):
         for drawer, record in zip(drawers, records, strict=True):
             # A frame of VTK's takes as long as dozens of ours.

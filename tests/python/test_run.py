@@ -52,7 +52,7 @@ class FakeRenderer:
     def __init__(self, width, height):
         self._shape, self._number = (height, width, 4), 0
 
-    def render(self, *_, values=None):
+    def render(self, *_, **_values):
         type(self).on_render(self._number)
         self._number += 1
         return np.full(self._shape, self._number, np.uint8)

@@ -30,10 +30,11 @@ is held by sums over a few neighbors that stand for integrals, and on real arran
 short (the gradient of the *exact* field ρ0 g (H − y) at the same particles is what "gradient of the
 exact pressure" below says); boundary particles carry no multiplier of their own, so beside a side
 wall it takes more of one. The multipliers grow until their forces hold the weight all the same, so
-the forces are right, and pressures are the mean virial of these. What is left is the share of the
-side walls: their particles hold no weight, since nothing tells them how deep they are, so the layer
-beside them carries less than its own, and the middle carries that as well. The narrower the tank
-the more: inside a tank 8 spacings wide and deep it is 9 %."""
+the forces are right, and pressures are the mean virial of these, with a third of a particle's own
+for a boundary particle's. What is left: particles at side walls hold no weight, since nothing tells
+them how deep they are, so the middle carries a little more than its share, the more the narrower
+the tank, and the lowest layer reads less, for part of what it bears goes into the floor by
+collision response. Where layers are few, as in coarse tanks, the line feels that."""
 
 
 def run(settings: Settings) -> Result:
