@@ -70,7 +70,7 @@ struct RenderParams {
   Vec3 sphere_color{0.10F, 0.32F, 0.60F};
   Colormap colormap = Colormap::viridis;
   std::optional<ColorRange> color_range = std::nullopt;
-  std::string legend;
+  std::string legend{};
   std::optional<Real> tint_depth = std::nullopt;
   Background background = Background::sky;
   std::optional<Reflection> reflection = std::nullopt;
