@@ -40,8 +40,8 @@ struct PressureErrors {
 ///   p_i = V/(2n) Σ_k (p̂_i + p̂_k) (x_i − x_k)·(−∇W_ik)                               [Pa]
 /// n dimensions, k over neighbors and boundary particles. For the latter, which have no multiplier,
 /// p̂_i/3 stands: with 0, what collision response holds in their stead would be left out, with p̂_i
-/// it would count at side walls as well, which hold no weight. In a tank at rest the layers at floor
-/// and walls then err by the same to either side.
+/// it would count at side walls as well, which hold no weight. In a tank at rest the layers at
+/// floor and walls then err by the same to either side.
 /// @param x_p  (x, p̂)
 /// @param p    (·, p)
 void virial_pressures(const Neighborhood& near,

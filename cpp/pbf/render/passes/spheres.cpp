@@ -9,8 +9,8 @@
 namespace pbf {
 namespace {
 
-/// Less than Mesa's software driver can draw, which is 255 pixels; the graphics card that draws less
-/// has not been built.
+/// Less than Mesa's software driver can draw, which is 255 pixels; the graphics card that draws
+/// less has not been built.
 constexpr Real kLargestPoint = 200;
 
 /// As glsl/color.glsl reads it.
