@@ -23,7 +23,6 @@ add_library(pbf_render STATIC
   pbf/render/legend.cpp
   pbf/render/crowding.cpp
   pbf/render/layer_filter.cpp
-  pbf/render/crowding_kernels.cpp
   pbf/render/sun_shadow.cpp
   pbf/render/flow_schedule.cpp
   pbf/render/mesh.cpp
@@ -49,13 +48,10 @@ add_library(pbf_render STATIC
   pbf/render/raster/surroundings.cpp
   pbf/render/raster/normal.cpp
   pbf/render/raster/smooth.cpp
-  pbf/render/raster/splat_kernels.cpp
   pbf/render/raster/splats.cpp
   pbf/render/passes/resolve.cpp
   pbf/render/raster/surface_maps.cpp
-  pbf/render/raster/smooth_kernels.cpp
   pbf/render/raster/curvature_flow.cpp
-  pbf/render/raster/curvature_flow_kernels.cpp
   pbf/render/fluid_renderer.cpp)
 target_link_libraries(pbf_render
   PUBLIC pbf_core

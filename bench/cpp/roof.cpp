@@ -19,25 +19,12 @@
 
 namespace pbf {
 
-#define PBF_DECLARE(isa)                    \
-  namespace isa {                           \
-  const bench::RoofKernels& roof_kernels(); \
-  }
-PBF_FOR_EACH_ISA(PBF_DECLARE)
-#undef PBF_DECLARE
+PBF_TABLE_BY_ISA(bench::RoofKernels, roof_kernels, roof_kernels)
 
 namespace bench {
 namespace {
 
 constexpr std::chrono::milliseconds kTimePerRoof{100};
-
-const RoofKernels& roof_kernels(Isa isa) {
-  using FindTable = const RoofKernels& (*)();
-#define PBF_TABLE(isa) isa::roof_kernels,
-  static constexpr FindTable tables[] = {PBF_FOR_EACH_ISA(PBF_TABLE)};
-#undef PBF_TABLE
-  return tables[static_cast<std::size_t>(isa)]();
-}
 
 /// Binds the calling thread to a processor of its own if there is one for every thread. Else, and
 /// where a system has no such call, its scheduler knows better, which cores share what among them.

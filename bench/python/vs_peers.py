@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import multiprocessing
 import os
 import statistics
 import sys
@@ -24,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from child import Child
 from machine import commit, processor
 from numpy.typing import NDArray
 from peers import OURS, SECOND, SYSTEMS, WORK, DamBreak
@@ -82,32 +82,6 @@ def serve(name: str, case: DamBreak, pipe: Connection) -> None:
         pipe.send(Block(milliseconds, search, solver.positions(), steps))
 
 
-class Child:
-    """A solver in another process. Raises EOFError if that has died."""
-
-    def __init__(self, name: str, case: DamBreak) -> None:
-        self.name = name
-        context = multiprocessing.get_context("spawn")
-        self.pipe, theirs = context.Pipe()
-        self.process = context.Process(target=serve, args=(name, case, theirs), daemon=True)
-        threads = dict.fromkeys(["OMP_NUM_THREADS", "QD_NUM_THREADS"], str(case.threads))
-        before = dict(os.environ)
-        os.environ.update(threads | SYSTEMS[name].environment)  # the child inherits it
-        self.process.start()
-        os.environ.clear()
-        os.environ.update(before)
-        theirs.close()
-        self.support_radius: float = self.pipe.recv()
-
-    def run(self, asked: int | float) -> Block:
-        self.pipe.send(asked)
-        return self.pipe.recv()
-
-    def close(self) -> None:
-        self.process.terminate()
-        self.process.join()
-
-
 def compression(positions: NDArray[np.float32], case: DamBreak) -> tuple[float, float]:
     """Measure every solver with one ruler: max(ρ/ρ0 − 1, 0) away from the walls, mean and most."""
     h = 2 * case.spacing
@@ -137,7 +111,9 @@ def children(work: str, case: DamBreak, skipped: dict[str, str]) -> list[Child]:
     for name, system in SYSTEMS.items():
         if work in system.work and name not in skipped:
             try:
-                started.append(Child(name, replace(case, **WORK.get(work, {}))))
+                threads = dict.fromkeys(["OMP_NUM_THREADS", "QD_NUM_THREADS"], str(case.threads))
+                task = replace(case, **WORK.get(work, {}))
+                started.append(Child(serve, name, task, threads | system.environment))
             except EOFError:
                 skipped[name] = f"did not start; it needs {system.needs}"
     return started
@@ -153,7 +129,7 @@ def measure(work: str, case: DamBreak, plan: Plan, skipped: dict[str, str]) -> l
     for _ in range(plan.blocks):
         for solver, record in zip(solvers, records, strict=True):
             block = solver.run(plan.steps)
-            neighbors, tree_ms = tree_search(block.positions, solver.support_radius)
+            neighbors, tree_ms = tree_search(block.positions, solver.greeting)
             error, _ = compression(block.positions, case)
             values = (block.milliseconds, block.search_ms, tree_ms, error, neighbors)
             for key, value in zip(keys, values, strict=True):

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import multiprocessing
 import os
 import statistics
 import sys
@@ -24,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from child import Child
 from machine import commit, processor
 from numpy.typing import NDArray
 from peers import DamBreak, PBFluids
@@ -150,27 +150,6 @@ def serve(name: str, case: Case, pipe: Connection) -> None:
         pipe.send((milliseconds, read()))
 
 
-class Child:
-    """A drawer in another process. Raises EOFError if that has died."""
-
-    def __init__(self, name: str, case: Case) -> None:
-        self.name = name
-        context = multiprocessing.get_context("spawn")
-        self.pipe, theirs = context.Pipe()
-        self.process = context.Process(target=serve, args=(name, case, theirs), daemon=True)
-        self.process.start()
-        theirs.close()
-        self.particles: int = self.pipe.recv()
-
-    def run(self, frames: int) -> Frames:
-        self.pipe.send(frames)
-        return self.pipe.recv()
-
-    def close(self) -> None:
-        self.process.terminate()
-        self.process.join()
-
-
 def simulated(side: int, folder: Path) -> tuple[Path, float]:
     """Simulate a quarter of a second of the dam break, once; give the file and the spacing."""
     spacing = 0.78 / side
@@ -190,7 +169,7 @@ def measure(case: Case, names: list[str], turns: int, frames: int, pictures: Pat
     drawers, records = [], []
     for name in names:
         try:
-            drawers.append(Child(name, case))
+            drawers.append(Child(serve, name, case))
         except EOFError:
             print(f"without {name}: it did not start", file=sys.stderr)
             continue
@@ -199,7 +178,7 @@ def measure(case: Case, names: list[str], turns: int, frames: int, pictures: Pat
             | {
                 "cloud": Path(case.cloud).name,
                 "name": name,
-                "particles": drawers[-1].particles,
+                "particles": drawers[-1].greeting,
                 "ms": [],
             }
         )

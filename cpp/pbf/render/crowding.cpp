@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace pbf {
+PBF_TABLE_BY_ISA(CrowdingKernels, crowding_kernels, crowding_kernels)
 namespace {
 
 /// Particles that are sorted out at a time.

@@ -199,17 +199,18 @@ Surface FluidRenderer::draw(const PointsView& positions,
   const FrameBlock frame = frame_block(camera, targets_->width, targets_->height);
   passes_->frame.upload(&frame, sizeof frame);
   passes_->frame.bind_base(0);
-  if (params.style == Style::spheres) return draw_spheres(positions, camera, params, colors);
+  if (params.style == Style::spheres) return draw_spheres(positions, camera, frame, params, colors);
   Surface surface = maps_ ? draw_in_cpp(positions, camera, params)
                           : draw_in_glsl(positions, camera, frame, params);
   if (!colors.empty()) {
-    surface.tint = &draw_tint(positions, camera, surface.depth, params, colors);
+    surface.tint = &draw_tint(positions, camera, frame, surface.depth, params, colors);
   }
   return surface;
 }
 
 Surface FluidRenderer::draw_spheres(const PointsView& positions,
                                     const Camera& camera,
+                                    const FrameBlock& frame,
                                     const RenderParams& params,
                                     const Colors& colors) {
   Targets& to = *targets_;
@@ -218,7 +219,7 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
     const Colors all_alike(static_cast<std::size_t>(positions.cols()),
                            encoded(params.sphere_color));
     passes_->colored.upload(positions, colors.empty() ? all_alike : colors, radius, camera.eye,
-                            frame_block(camera, to.width, to.height));
+                            frame);
     to.tiles.find(positions, camera, radius);
   });
   if (to.spheres == nullptr) to.spheres = std::make_unique<Targets::Spheres>(to);
@@ -229,6 +230,7 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
 
 const Texture& FluidRenderer::draw_tint(const PointsView& positions,
                                         const Camera& camera,
+                                        const FrameBlock& frame,
                                         const Texture& depth,
                                         const RenderParams& params,
                                         const Colors& colors) {
@@ -238,8 +240,7 @@ const Texture& FluidRenderer::draw_tint(const PointsView& positions,
     to.tint = std::make_unique<Target>((to.width + 1) / 2, (to.height + 1) / 2, Format::rgba32f);
   }
   stage("tint", [&] {
-    passes_->colored.upload(positions, colors, params.radius, camera.eye,
-                            frame_block(camera, to.width, to.height));
+    passes_->colored.upload(positions, colors, params.radius, camera.eye, frame);
     passes_->tint(passes_->colored, depth, params.radius, to.tint->framebuffer);
   });
   return to.tint->texture;
@@ -272,9 +273,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   Passes& pass = *passes_;
   Targets& to = *targets_;
   const Real nearest = nearest_front(positions, params.radius, frame, 0);
-  stage("crowding", [&] {
-    pass.crowding.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0);
-  });
+  stage("crowding", [&] { pass.crowding.find(positions, camera.eye, params.crowding_distance()); });
   stage("upload", [&] {
     pass.sprites.upload(pass.crowding.particles());
     to.tiles.find(positions, camera, params.radius);
@@ -288,17 +287,11 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   const auto smooth = [&](const LayerFilter& filter, int iterations, const Texture& values,
                           const Target& out) {
     const Texture* last = &values;
-    const auto once = [&](const LayerFilter& with) {
+    iterate(filter, iterations, frame, nearest, [&](const LayerFilter& with) {
       (*pass.smooth)(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
                      to.between.texture, out.framebuffer);
       last = &out.texture;
-    };
-    for (int k = 0; k < iterations; ++k) once(filter);
-    if (iterations > 0 && leaves_gaps(filter, frame, nearest)) {
-      LayerFilter closing = filter;
-      closing.close_gaps = true;
-      once(closing);
-    }
+    });
     return last;
   };
   const Texture* depth = &to.depth.texture;

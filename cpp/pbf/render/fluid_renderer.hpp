@@ -84,10 +84,12 @@ class FluidRenderer {
                       const RenderParams& params);
   Surface draw_spheres(const PointsView& positions,
                        const Camera& camera,
+                       const FrameBlock& frame,
                        const RenderParams& params,
                        const Colors& colors);
   const Texture& draw_tint(const PointsView& positions,
                            const Camera& camera,
+                           const FrameBlock& frame,
                            const Texture& depth,
                            const RenderParams& params,
                            const Colors& colors);

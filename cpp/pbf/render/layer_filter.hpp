@@ -27,4 +27,15 @@ inline constexpr int kMostTaps = 24;
 /// @param nearest  depth of the nearest fluid [m]
 bool leaves_gaps(const LayerFilter& filter, const FrameBlock& frame, Real nearest);
 
+/// Calls once(filter) for each iteration, and a last time to close the gaps if they leave any.
+template <class F>
+void iterate(
+    const LayerFilter& filter, int iterations, const FrameBlock& frame, Real nearest, F&& once) {
+  for (int k = 0; k < iterations; ++k) once(filter);
+  if (iterations == 0 || !leaves_gaps(filter, frame, nearest)) return;
+  LayerFilter closing = filter;
+  closing.close_gaps = true;
+  once(closing);
+}
+
 }  // namespace pbf

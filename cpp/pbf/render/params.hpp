@@ -88,6 +88,8 @@ struct RenderParams {
 
   // What the optional fields stand for when not given.
   [[nodiscard]] Real drop_radius_in_force() const { return drop_radius.value_or(radius); }
+  /// How far drops and bodies are told apart by [m]; 0: they are drawn alike.
+  [[nodiscard]] Real crowding_distance() const { return drop_radius ? 2 * radius : 0; }
   [[nodiscard]] Real volume_in_force() const;  ///< [m³]
   [[nodiscard]] Real sphere_radius_in_force() const { return sphere_radius.value_or(radius / 2); }
   [[nodiscard]] Vec3 tint_absorption() const {

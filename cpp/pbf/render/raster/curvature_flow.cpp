@@ -3,6 +3,10 @@
 #include "pbf/core/parallel.hpp"
 #include "pbf/render/raster/curvature_flow_kernels.hpp"
 
+namespace pbf {
+PBF_TABLE_BY_ISA(raster::FlowKernels, flow_kernels, raster::flow_kernels)
+}  // namespace pbf
+
 namespace pbf::raster {
 
 void curvature_flow(const LayerFilter& filter,

@@ -5,6 +5,10 @@
 
 #include <array>
 
+namespace pbf {
+PBF_TABLE_BY_ISA(raster::SmoothKernels, smooth_kernels, raster::smooth_kernels)
+}  // namespace pbf
+
 namespace pbf::raster {
 namespace {
 

@@ -6,6 +6,10 @@
 #include <limits>
 #include <utility>
 
+namespace pbf {
+PBF_TABLE_BY_ISA(raster::SplatKernels, splat_kernels, raster::splat_kernels)
+}  // namespace pbf
+
 namespace pbf::raster {
 namespace {
 

@@ -31,18 +31,11 @@ const Map* SurfaceMaps::smoothed(const LayerFilter& filter,
                                  Map& between,
                                  Map& out,
                                  int threads) {
-  if (iterations == 0) return &values;
   const Map* last = &values;
-  const auto once = [&](const LayerFilter& with) {
+  iterate(filter, iterations, frame, nearest, [&](const LayerFilter& with) {
     smooth(with, frame, tiles(), *last, depth_, between, out, threads);
     last = &out;
-  };
-  for (int k = 0; k < iterations; ++k) once(filter);
-  if (leaves_gaps(filter, frame, nearest)) {
-    LayerFilter closing = filter;
-    closing.close_gaps = true;
-    once(closing);
-  }
+  });
   return last;
 }
 
@@ -53,9 +46,8 @@ void SurfaceMaps::find(const PointsView& positions,
   const FrameBlock frame = frame_block(camera, depth_.width(), depth_.height());
   const SplatView view = splat_view(frame, params);
   milliseconds_.clear();
-  stage("crowding", [&] {
-    crowding_.find(positions, camera.eye, params.drop_radius ? 2 * params.radius : 0, threads);
-  });
+  stage("crowding",
+        [&] { crowding_.find(positions, camera.eye, params.crowding_distance(), threads); });
   stage("sphere_depth", [&] {
     splats_.bin(crowding_.particles(), view, threads);
     splats_.draw(view, depth_, thickness_, threads);
