@@ -22,12 +22,14 @@ void BoundaryList::build_chunk(const WallLattice& walls,
                                Index last) {
   thread_local std::vector<Vec3> sites;  // row after row
   std::array<std::uint32_t, static_cast<std::size_t>(kChunk)> lengths;
-  sites.clear();
+  std::size_t end = 0;
   for (Index i = first; i < last; ++i) {
-    const std::size_t before = sites.size();
-    walls.for_each_near({x[i].x, x[i].y, x[i].z}, [&](const Vec3& q) { sites.push_back(q); });
-    lengths[static_cast<std::size_t>(i - first)] =
-        static_cast<std::uint32_t>(sites.size() - before);
+    if (sites.size() < end + walls.most_near()) sites.resize(2 * (end + walls.most_near()));
+    Vec3* const row = sites.data() + end;
+    const Vec3* const row_end = walls.collect_near({x[i].x, x[i].y, x[i].z}, row);
+    const auto length = static_cast<std::size_t>(row_end - row);
+    lengths[static_cast<std::size_t>(i - first)] = static_cast<std::uint32_t>(length);
+    end += length;
   }
   const Index lanes = rows_.lanes();
   const auto count = static_cast<std::size_t>(last - first);

@@ -1,6 +1,7 @@
 #include "pbf/boundary/wall_lattice.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pbf {
 
@@ -16,6 +17,7 @@ WallLattice::WallLattice(const Box& box, Real spacing, Real h, int dimensions)
         static_cast<double>(box.upper[axis]) - static_cast<double>(box.lower[axis]);
     cells_[axis] = std::max<Index>(1, std::llround(length / static_cast<double>(spacing)));
     cell_size_[axis] = static_cast<Real>(length / static_cast<double>(cells_[axis]));
+    cells_per_length_[axis] = 1 / cell_size_[axis];
     if (!box.periodic[static_cast<std::size_t>(axis)]) continue;
     const auto beyond = static_cast<Index>(std::ceil(h / cell_size_[axis])) + 1;
     cells_[axis] += 2 * beyond;
@@ -30,8 +32,10 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
     sites.size = sites.end_inside = 1;
     return sites;
   }
+  // Written in any case: a jump that a processor cannot foresee costs more than the rest.
   const auto add_if_near = [&](Real at) {
-    if (std::abs(x - at) < h_) sites.at[static_cast<std::size_t>(sites.size++)] = at;
+    sites.at[static_cast<std::size_t>(sites.size)] = at;
+    sites.size += std::abs(x - at) < h_ ? 1 : 0;
   };
   const Real from_lower = x - walls_.lower[axis];
   const Real to_upper = walls_.upper[axis] - x;
@@ -46,9 +50,10 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
   const Real from_first = x - first_cell_[axis];
   // Casts cut off, which from zero on is floor; one site too many is not near.
   const Real half = size / 2;
-  const Index first = std::max<Index>(0, static_cast<Index>((from_first - h_ - half) / size));
+  const Real per_length = cells_per_length_[axis];
+  const Index first = std::max<Index>(0, static_cast<Index>((from_first - h_ - half) * per_length));
   const Index last =
-      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_first + h_ + half) / size));
+      std::min<Index>(cells_[axis] - 1, static_cast<Index>((from_first + h_ + half) * per_length));
   for (Index k = first; k <= last; ++k) {
     add_if_near(first_cell_[axis] + (static_cast<Real>(k) + 0.5F) * size);
   }
@@ -59,6 +64,42 @@ WallLattice::Sites WallLattice::sites_near(int axis, Real x) const {
     }
   }
   return sites;
+}
+
+std::size_t WallLattice::most_near() const {
+  const auto most = static_cast<std::size_t>(kMostSites);
+  return most * most * (dimensions_ == 2 ? 1 : most);
+}
+
+Vec3* WallLattice::collect_near(const Vec3& x, Vec3* to) const {
+  if (((x - walls_.lower).array() >= h_).all() && ((walls_.upper - x).array() >= h_).all()) {
+    return to;
+  }
+  const auto square = [](Real a) { return a * a; };
+  const std::array<Sites, 3> sites{sites_near(0, x[0]), sites_near(1, x[1]), sites_near(2, x[2])};
+  const Real h2 = h_ * h_;
+  for (int c = 0; c < sites[2].size; ++c) {
+    const Real z = sites[2].at[static_cast<std::size_t>(c)];
+    const Real z2 = square(x[2] - z);
+    for (int b = 0; b < sites[1].size; ++b) {
+      const Real y = sites[1].at[static_cast<std::size_t>(b)];
+      const Real yz2 = square(x[1] - y) + z2;
+      const auto visit = [&](int first, int end) {
+        for (int a = first; a < end; ++a) {
+          const Real at = sites[0].at[static_cast<std::size_t>(a)];
+          *to = {at, y, z};
+          to += square(x[0] - at) + yz2 < h2 ? 1 : 0;
+        }
+      };
+      if (sites[2].inside(c) && sites[1].inside(b)) {
+        visit(0, sites[0].first_inside);
+        visit(sites[0].end_inside, sites[0].size);
+      } else {
+        visit(0, sites[0].size);
+      }
+    }
+  }
+  return to;
 }
 
 }  // namespace pbf

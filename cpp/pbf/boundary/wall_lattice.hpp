@@ -3,7 +3,7 @@
 #include "pbf/boundary/box.hpp"
 
 #include <array>
-#include <cmath>
+#include <cstddef>
 
 namespace pbf {
 
@@ -20,54 +20,30 @@ class WallLattice {
  public:
   WallLattice(const Box& box, Real spacing, Real h, int dimensions = 3);
 
-  /// Calls f(q) for every boundary particle with ‖x − q‖ < h. x lies in the box.
-  template <class F>
-  void for_each_near(const Vec3& x, F&& f) const {
-    if (((x - walls_.lower).array() >= h_).all() && ((walls_.upper - x).array() >= h_).all())
-      return;
-    const std::array<Sites, 3> sites{sites_near(0, x[0]), sites_near(1, x[1]), sites_near(2, x[2])};
-    const Real h2 = h_ * h_;
-    for (int c = 0; c < sites[2].size; ++c) {
-      const Real z2 = square(x[2] - sites[2].at[c]);
-      for (int b = 0; b < sites[1].size; ++b) {
-        const Real yz2 = square(x[1] - sites[1].at[b]) + z2;
-        if (!(yz2 < h2)) continue;
-        const auto visit = [&](int first, int end) {
-          for (int a = first; a < end; ++a) {
-            if (square(x[0] - sites[0].at[a]) + yz2 < h2) {
-              f(Vec3{sites[0].at[a], sites[1].at[b], sites[2].at[c]});
-            }
-          }
-        };
-        if (sites[2].inside(c) && sites[1].inside(b)) {
-          visit(0, sites[0].first_inside);
-          visit(sites[0].end_inside, sites[0].size);
-        } else {
-          visit(0, sites[0].size);
-        }
-      }
-    }
-  }
+  /// Writes every boundary particle with ‖x − q‖ < h, one behind the other, and returns the place
+  /// behind the last. x lies in the box. Writes on the way to any of most_near() places.
+  Vec3* collect_near(const Vec3& x, Vec3* to) const;
+  [[nodiscard]] std::size_t most_near() const;
 
  private:
+  // Sites that are tried on an axis: h is at most 4 d and inner cells at least 2/3 d, so that there
+  // are 2 · 4 outside and 2 · 4 / (2/3) + 4 inside.
+  static constexpr int kMostSites = 24;
+
   /// Coordinates of the sites within h of a coordinate, in ascending order.
   struct Sites {
-    // h is at most 4 d and inner cells at least 2/3 d: 2 · (4 + 1) outside and 2 · 4 / (2/3) + 2
-    // inside.
-    std::array<Real, 24> at;
+    std::array<Real, kMostSites + 1> at;
     int size = 0;
     int first_inside = 0;
     int end_inside = 0;
     [[nodiscard]] bool inside(int k) const { return k >= first_inside && k < end_inside; }
   };
   [[nodiscard]] Sites sites_near(int axis, Real x) const;
-  static Real square(Real a) { return a * a; }
-
   Box walls_;  // infinite where there are none
   Real spacing_, h_;
   int dimensions_, layers_;
   std::array<Index, 3> cells_{};
-  Vec3 first_cell_, cell_size_;
+  Vec3 first_cell_, cell_size_, cells_per_length_;
 };
 
 }  // namespace pbf

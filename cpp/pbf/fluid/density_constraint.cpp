@@ -2,7 +2,9 @@
 
 #include "pbf/fluid/sweep.hpp"
 
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace pbf {
 namespace {
@@ -15,12 +17,13 @@ Bounds3 bounds_of(const std::optional<Box>& centers) {
 }
 
 template <class Kernel>
-TensileTerms tensile_terms(const Kernel& VW,
-                           const Discretization& disc,
-                           const SolverParams& solver) {
+TensileTerms<Kernel> tensile_terms(const Discretization& disc, const SolverParams& solver) {
+  const int dimensions = disc.fluid.dimensions;
   const Real dq = solver.tensile_distance * disc.h;
-  return {solver.tensile_strength / disc.ideal_denominator, 1 / VW.W(dq * dq),
-          solver.tensile_exponent};
+  const Real W_dq = Kernel(disc.h, 1, dimensions).W(dq * dq);
+  const Real k = solver.tensile_strength / disc.ideal_denominator;
+  const Real root = std::pow(k, 1 / static_cast<Real>(solver.tensile_exponent));
+  return {Kernel(disc.h, root / W_dq, dimensions), k > 0 ? solver.tensile_exponent : 0};
 }
 
 }  // namespace
@@ -59,8 +62,8 @@ void apply_corrections(const Neighborhood& near,
                        Records& u) {
   const Bounds3 centers = bounds_of(disc.centers);
   sweep(near, disc, solver.num_threads, [&](const auto& loops, const auto& VW, const Stretch& at) {
-    loops.corrections(VW, at, tensile_terms(VW, disc, solver), centers, x_lambda.data(), x.data(),
-                      x_star.data(), u.data());
+    const auto tensile = tensile_terms<std::decay_t<decltype(VW)>>(disc, solver);
+    loops.corrections(VW, at, tensile, centers, x_lambda.data(), x.data(), x_star.data(), u.data());
   });
   near.ghosts.refresh_positions(x_star, solver.num_threads);
 }

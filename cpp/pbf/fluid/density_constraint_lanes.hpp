@@ -16,12 +16,12 @@ template <class Kernel>
 PBF_INLINE ConstraintLanes constraint(const Kernel& VW, const Slice& slice, const Record* x_star) {
   const Vec3Lanes x_i = load_records(x_star + slice.first).xyz;
   Lanes density = VW.W(Lanes(0));
-  Lanes sum_grad2 = 0;         // Σ_{j≠i} ‖∇_j C_i‖²
-  Vec3Lanes grad = {0, 0, 0};  // ∇_i C_i
+  Lanes sum_grad2 = 0;         // Σ_{j≠i} ‖∇_j C_i‖², in units of slope_unit²
+  Vec3Lanes grad = {0, 0, 0};  // ∇_i C_i, in units of slope_unit
   slice.for_each_neighbor([&](const std::uint32_t* j) PBF_LAMBDA_INLINE {
     const Vec3Lanes r = x_i - gather(x_star, j).xyz;
     const Lanes r2 = dot(r, r);
-    const Lanes s = VW.slope(r2);
+    const Lanes s = VW.slope_in_units(r2);
     density += VW.W(r2);
     grad -= s * r;
     sum_grad2 += s * r2 * s;  // in this order no product overflows where r is nothing
@@ -30,9 +30,11 @@ PBF_INLINE ConstraintLanes constraint(const Kernel& VW, const Slice& slice, cons
     const Vec3Lanes r = x_i - q;
     const Lanes r2 = dot(r, r);
     density += VW.W(r2);
-    grad -= VW.slope(r2) * r;
+    grad -= VW.slope_in_units(r2) * r;
   });
-  return {x_i, density - Lanes(1), sum_grad2 + dot(grad, grad)};
+  // One factor after the other: their square may not be a normal number.
+  const Lanes unit(VW.slope_unit);
+  return {x_i, density - Lanes(1), unit * (unit * (sum_grad2 + dot(grad, grad)))};
 }
 
 template <class Kernel>
@@ -103,22 +105,22 @@ void virials(const Kernel& VW, const Stretch& at, const Record* x_p, Record* vir
   });
 }
 
-/// s_ij, with the exponent known to the compiler; 0: none; −1: any, looked up.
-/// Powers end at 1e-24 and 1e-30: W falls to nothing towards the support radius, and numbers below
+/// λ_sum + s_ij, with the exponent known to the compiler; 0: none; −1: any, looked up.
+/// Powers end at 1e-24 m²: W falls to nothing towards the support radius, and numbers below
 /// float32's normal range (1e-38) cost a processor more than the whole pair.
-template <int kExponent>
-PBF_INLINE Lanes tensile(const TensileTerms& terms, Lanes VW_ij) {
+template <int kExponent, class Kernel>
+PBF_INLINE Lanes repelled(const TensileTerms<Kernel>& terms, Lanes lambda_sum, Lanes r2) {
   if constexpr (kExponent == 0) {
-    return 0;
+    return lambda_sum;
   } else {
-    const Lanes ratio = VW_ij * Lanes(terms.inverse_W_dq);
+    const Lanes root = terms.root.W(r2);
     if constexpr (kExponent == 4) {
-      const Lanes square = max(ratio * ratio, Lanes(1e-12F));
-      return Lanes(-terms.k) * (square * square);
+      const Lanes square = max(root * root, Lanes(1e-12F));
+      return lambda_sum - square * square;
     } else {
-      Lanes power = ratio;
-      for (int k = 1; k < terms.exponent; ++k) power = max(power * ratio, Lanes(1e-30F));
-      return Lanes(-terms.k) * power;
+      Lanes power = root;
+      for (int k = 1; k < terms.exponent; ++k) power = max(power * root, Lanes(1e-24F));
+      return lambda_sum - power;
     }
   }
 }
@@ -133,7 +135,7 @@ PBF_INLINE Lanes project(Lanes x, Real lower, Real upper) {
 template <int kExponent, class Kernel>
 void corrections(const Kernel& VW,
                  const Stretch& at,
-                 const TensileTerms& terms,
+                 const TensileTerms<Kernel>& terms,
                  const Bounds3& centers,
                  const Record* x_lambda,
                  const Record* x,
@@ -141,20 +143,21 @@ void corrections(const Kernel& VW,
                  Record* u) {
   for_each_slice(at, [&](const Slice& slice) PBF_LAMBDA_INLINE {
     const RecordLanes i = load_records(x_lambda + slice.first);
-    Vec3Lanes dp = {0, 0, 0};
+    Vec3Lanes dp = {0, 0, 0};  // in units of slope_unit
     slice.for_each_neighbor([&](const std::uint32_t* entries) PBF_LAMBDA_INLINE {
       const RecordLanes j = gather(x_lambda, entries);
       const Vec3Lanes r = i.xyz - j.xyz;
       const Lanes r2 = dot(r, r);
-      dp -= (i.w + j.w + tensile<kExponent>(terms, VW.W(r2))) * VW.slope(r2) * r;
+      dp -= repelled<kExponent>(terms, i.w + j.w, r2) * VW.slope_in_units(r2) * r;
     });
     slice.for_each_wall([&](const Vec3Lanes& q) PBF_LAMBDA_INLINE {
       const Vec3Lanes r = i.xyz - q;
       const Lanes r2 = dot(r, r);
-      dp -= (i.w + tensile<kExponent>(terms, VW.W(r2))) * VW.slope(r2) * r;
+      dp -= repelled<kExponent>(terms, i.w, r2) * VW.slope_in_units(r2) * r;
     });
     const Vec3Lanes start = load_records(x + slice.first).xyz;
     const RecordLanes u_i = load_records(u + slice.first);
+    dp = Lanes(VW.slope_unit) * dp;
     const Vec3Lanes moved = i.xyz + dp;
     Vec3Lanes allowed, displacement;
     // The displacement grows by Δp, or ends where a wall holds the particle.
@@ -174,13 +177,13 @@ void corrections(const Kernel& VW,
 template <class Kernel>
 void corrections(const Kernel& VW,
                  const Stretch& at,
-                 const TensileTerms& terms,
+                 const TensileTerms<Kernel>& terms,
                  const Bounds3& centers,
                  const Record* x_lambda,
                  const Record* x,
                  Record* x_star,
                  Record* u) {
-  if (!(terms.k > 0)) {
+  if (terms.exponent == 0) {
     corrections<0>(VW, at, terms, centers, x_lambda, x, x_star, u);
   } else if (terms.exponent == 4) {
     corrections<4>(VW, at, terms, centers, x_lambda, x, x_star, u);

@@ -6,6 +6,15 @@
 
 namespace pbf {
 
+Prediction::Prediction(const Discretization& disc, Real dt) : dt_{dt, dt, dt, 0} {
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const auto numbers = [](const Vec3& a, Real w) { return Numbers{a[0], a[1], a[2], w}; };
+  const Vec3 none = Vec3::Constant(infinity);
+  dv_ = numbers(dt * disc.fluid.gravity, 0);
+  lower_ = numbers(disc.centers ? disc.centers->lower : Vec3(-none), -infinity);
+  upper_ = numbers(disc.centers ? disc.centers->upper : none, infinity);
+}
+
 void predict(const Records& x,
              const Records& v,
              const Discretization& disc,
@@ -15,27 +24,8 @@ void predict(const Records& x,
              Records& u) {
   x_star.resize(x.size());
   u.resize(x.size());
-  const Vec3 dv = dt * disc.fluid.gravity;
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const Box centers = disc.centers.value_or(
-      Box{.lower = Vec3::Constant(-infinity), .upper = Vec3::Constant(infinity)});
-  parallel_for(x.size(), threads, [&](Index i) {
-    // A wall leaves the way to it; elsewhere the difference of positions would bring in their
-    // rounding.
-    const auto move = [&](Real from, Real velocity, int axis, Real& to, Real& way) {
-      way = dt * (velocity + dv[axis]);
-      const Real moved = from + way;
-      to = centers.project(axis, moved);
-      if (to != moved) way = to - from;
-    };
-    const Record &x_i = x[i], &v_i = v[i];
-    Record to{.w = x_i.w}, way;
-    move(x_i.x, v_i.x, 0, to.x, way.x);
-    move(x_i.y, v_i.y, 1, to.y, way.y);
-    move(x_i.z, v_i.z, 2, to.z, way.z);
-    x_star[i] = to;
-    u[i] = way;
-  });
+  const Prediction prediction(disc, dt);
+  parallel_for(x.size(), threads, [&](Index i) { prediction(x[i], v[i], x_star[i], u[i]); });
   wrap(disc.domain, x_star, threads);
 }
 

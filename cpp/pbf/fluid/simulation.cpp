@@ -130,9 +130,7 @@ StepReport Simulation::step(Real dt) {
   }
   {
     const auto t = report.time(Stage::neighbors);
-    sort_by_cell();
-    // Cheaper than to bring x* and u into the new order.
-    predict(state_.x, state_.v, disc_, dt, threads, x_star_, u_);
+    sort_by_cell(dt);
     near_.ghosts.refresh_positions(x_star_, threads);
     near_.fluid.build(grid_, x_star_, disc_.h, threads);
   }
@@ -278,9 +276,10 @@ Real Simulation::cfl_time_step() const {
   return std::max(solver_.min_time_step, longest);
 }
 
-/// Sorts the state by the cells of x*. Which particle is which stays as it was: a step that fails
+/// Sorts the state by the cells of x*, and predicts x* and u again, which is cheaper than to bring
+/// them into the new order. Which particle is which stays as it was: a step that fails
 /// here or later has changed nothing that can be seen.
-void Simulation::sort_by_cell() {
+void Simulation::sort_by_cell(Real dt) {
   const int threads = solver_.num_threads;
   near_.sort(x_star_, disc_, threads, grid_);
   Records &x = x_lambda_, &v = v_new_;
@@ -288,10 +287,13 @@ void Simulation::sort_by_cell() {
   v.resize(size());
   sorted_ids_.resize(state_.ids.size());
   new_totals_.resize(state_.totals.size());
+  x_star_.resize(size());
+  const Prediction prediction(disc_, dt);
   parallel_for(size(), threads, [&](Index k) {
     const std::uint32_t from = grid_.order()[static_cast<std::size_t>(k)];
     x[k] = state_.x[from];
     v[k] = state_.v[from];
+    prediction(x[k], v[k], x_star_[k], u_[k]);
     sorted_ids_[static_cast<std::size_t>(k)] = state_.ids[from];
     new_totals_[static_cast<std::size_t>(k)] = state_.totals[from];
   });
@@ -299,6 +301,7 @@ void Simulation::sort_by_cell() {
   state_.v.swap(v);
   state_.ids.swap(sorted_ids_);
   state_.totals.swap(new_totals_);
+  wrap(disc_.domain, x_star_, threads);
 }
 
 /// Density errors at the positions the step ends with, from (v, ρ/ρ0); throws if any number is not

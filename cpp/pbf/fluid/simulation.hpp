@@ -62,7 +62,7 @@ class Simulation {
   void require_plane(const PointsView& positions,
                      const std::optional<Points>& velocities,
                      Index i) const;
-  void sort_by_cell();
+  void sort_by_cell(Real dt);
   void iterate_plain(StepReport& report);
   void iterate_pressure(Real dt, StepReport& report);
   void measure(StepReport& report);

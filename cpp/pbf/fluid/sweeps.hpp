@@ -16,11 +16,12 @@ struct Stretch {
   SliceView<Real> walls;
 };
 
-/// Artificial repulsion, Eq. 13 [MM13], as numbers.
+/// Artificial repulsion, Eq. 13 [MM13]: s = −k (W/W(Δq))ⁿ [m²]. The factors stand inside the
+/// power, where they cost nothing.
+template <class Kernel>
 struct TensileTerms {
-  Real k;             ///< [m²]
-  Real inverse_W_dq;  ///< 1 / (V W(Δq))
-  int exponent;
+  Kernel root;   ///< k^(1/n) W/W(Δq)
+  int exponent;  ///< n; 0: none
 };
 
 /// How a multiplier moves towards what its constraint asks for (fluid/pressure.hpp), as numbers.
@@ -59,7 +60,7 @@ struct Sweeps {
   /// x* and u = x* − x from (x*, λ); λ adds up in u's fourth number
   void (*corrections)(const Kernel& VW,
                       const Stretch& at,
-                      const TensileTerms& tensile,
+                      const TensileTerms<Kernel>& tensile,
                       const Bounds3& centers,
                       const Record* x_lambda,
                       const Record* x,

@@ -19,8 +19,9 @@ void vorticity(const Kernel& VW,
     slice.for_each_neighbor([&](const std::uint32_t* j) PBF_LAMBDA_INLINE {
       const Vec3Lanes r = x_i - gather(x, j).xyz;
       // (v_j − v_i) × ∇_j W with ∇_j W = −∇_i W = slope · r
-      curl += VW.slope(dot(r, r)) * cross(gather(v, j).xyz - v_i, r);
+      curl += VW.slope_in_units(dot(r, r)) * cross(gather(v, j).xyz - v_i, r);
     });
+    curl = Lanes(VW.slope_unit) * curl;
     store_records(omega + slice.first, curl, 0);
     store_records(x_strength + slice.first, x_i, sqrt(dot(curl, curl)));
   });
@@ -39,8 +40,9 @@ void confinement(const Kernel& VW,
     slice.for_each_neighbor([&](const std::uint32_t* entries) PBF_LAMBDA_INLINE {
       const RecordLanes j = gather(x_strength, entries);
       const Vec3Lanes r = i.xyz - j.xyz;
-      eta -= j.w * VW.slope(dot(r, r)) * r;
+      eta -= j.w * VW.slope_in_units(dot(r, r)) * r;
     });
+    eta = Lanes(VW.slope_unit) * eta;
     const Vec3Lanes omega_i = load_records(omega + slice.first).xyz;
     const Lanes length = sqrt(dot(eta, eta));
     // No direction out of rounding errors.

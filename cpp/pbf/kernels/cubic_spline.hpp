@@ -14,6 +14,7 @@ namespace pbf {
 template <class T>
 struct CubicSpline {
   T h;
+  T slope_unit;
 
   explicit CubicSpline(T support_radius, T factor = 1, int dimensions = 3) : h(support_radius) {
     using std::numbers::pi;
@@ -23,7 +24,7 @@ struct CubicSpline {
         (dimensions == 2 ? 40 / (7 * pi * std::pow(radius, 2)) : 8 / (pi * std::pow(radius, 3)));
     per_h_ = static_cast<T>(1 / radius);
     W0_ = static_cast<T>(W0);
-    slope0_ = static_cast<T>(6 * W0 / (radius * radius));
+    slope_unit = static_cast<T>(6 * W0 / (radius * radius));
   }
 
   template <class A>
@@ -35,13 +36,18 @@ struct CubicSpline {
   /// The s ≥ 0 with ∇W = −s · r                                                          [1/m⁵]
   template <class A>
   [[gnu::always_inline]] A slope(A r2) const {
+    return A(slope_unit) * slope_in_units(r2);
+  }
+  /// The same in units of slope_unit, which a sum over neighbors then needs once.
+  template <class A>
+  [[gnu::always_inline]] A slope_in_units(A r2) const {
     const A q = sqrt(r2) * A(per_h_);
     const A d = max(A(1) - q, A(0));
-    return A(slope0_) * select(q <= A(0.5F), A(2) - A(3) * q, d * d / max(q, A(0.5F)));
+    return select(q <= A(0.5F), A(2) - A(3) * q, d * d / max(q, A(0.5F)));
   }
 
  private:
-  T per_h_, W0_, slope0_;
+  T per_h_, W0_;
 };
 
 }  // namespace pbf

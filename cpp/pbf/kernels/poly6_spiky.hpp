@@ -14,11 +14,12 @@ namespace pbf {
 /// has no direction at r = 0, is the zero vector there. ∇W is not the derivative of this W: spiky
 /// keeps close particles apart where poly6's own gradient vanishes.
 ///
-/// Both may be given a factor, such as a volume. It and the constants before the powers stand
-/// inside the powers, where they cost nothing: 315/(64 π h³) (1 − q²)³ = (a − a q²)³.
+/// Both may be given a factor, such as a volume. In W it and the constant before the power stand
+/// inside the power, where they cost nothing: 315/(64 π h³) (1 − q²)³ = (a − a q²)³.
 template <class T>
 struct Poly6Spiky {
   T h;
+  T slope_unit;
 
   explicit Poly6Spiky(T support_radius, T factor = 1, int dimensions = 3) : h(support_radius) {
     using std::numbers::pi;
@@ -28,11 +29,9 @@ struct Poly6Spiky {
     const double grad0 =
         dimensions == 2 ? 30 / (pi * std::pow(radius, 3)) : 45 / (pi * std::pow(radius, 4));
     const double a = std::cbrt(static_cast<double>(factor) * W0);
-    const double b = std::sqrt(static_cast<double>(factor) * grad0);
     a_ = static_cast<T>(a);
     a_per_h2_ = static_cast<T>(a / (radius * radius));
-    b_ = static_cast<T>(b);
-    b_per_h_ = static_cast<T>(b / radius);
+    slope_unit = static_cast<T>(static_cast<double>(factor) * grad0 / (radius * radius));
     least_r2_ = static_cast<T>(1e-20 * radius * radius);
   }
 
@@ -45,14 +44,19 @@ struct Poly6Spiky {
   /// The s ≥ 0 with ∇W = −s · r                                                          [1/m⁵]
   template <class A>
   [[gnu::always_inline]] A slope(A r2) const {
+    return A(slope_unit) * slope_in_units(r2);
+  }
+  /// The same in units of slope_unit, which a sum over neighbors then needs once.
+  template <class A>
+  [[gnu::always_inline]] A slope_in_units(A r2) const {
     // Finite where r = 0, so that s · r is zero there.
     const A r = sqrt(max(r2, A(least_r2_)));
-    const A d = max(A(b_) - r * A(b_per_h_), A(0));
+    const A d = max(A(h) - r, A(0));
     return d * d / r;
   }
 
  private:
-  T a_, a_per_h2_, b_, b_per_h_, least_r2_;
+  T a_, a_per_h2_, least_r2_;
 };
 
 }  // namespace pbf

@@ -15,6 +15,7 @@ namespace pbf {
 template <class T>
 struct Wendland {
   T h;
+  T slope_unit;
 
   explicit Wendland(T support_radius, T factor = 1, int dimensions = 3) : h(support_radius) {
     using std::numbers::pi;
@@ -24,7 +25,7 @@ struct Wendland {
         (dimensions == 2 ? 7 / (pi * std::pow(radius, 2)) : 21 / (2 * pi * std::pow(radius, 3)));
     per_h_ = static_cast<T>(1 / radius);
     W0_ = static_cast<T>(W0);
-    slope0_ = static_cast<T>(20 * W0 / (radius * radius));
+    slope_unit = static_cast<T>(20 * W0 / (radius * radius));
   }
 
   template <class A>
@@ -37,12 +38,17 @@ struct Wendland {
   /// The s ≥ 0 with ∇W = −s · r                                                          [1/m⁵]
   template <class A>
   [[gnu::always_inline]] A slope(A r2) const {
+    return A(slope_unit) * slope_in_units(r2);
+  }
+  /// The same in units of slope_unit, which a sum over neighbors then needs once.
+  template <class A>
+  [[gnu::always_inline]] A slope_in_units(A r2) const {
     const A d = max(A(1) - sqrt(r2) * A(per_h_), A(0));
-    return A(slope0_) * (d * d * d);
+    return d * d * d;
   }
 
  private:
-  T per_h_, W0_, slope0_;
+  T per_h_, W0_;
 };
 
 }  // namespace pbf

@@ -4,6 +4,7 @@
 #include "pbf/core/parallel.hpp"
 #include "pbf/core/types.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -84,24 +85,27 @@ void CellGrid::build(const Records& x, Index particles, Real h, int threads) {
 /// input order alone. Each block counts its digits, and from the counts of all follows where each
 /// block puts each digit.
 void CellGrid::sort_entries(std::uint64_t largest_key, int threads) {
-  constexpr int kDigitBits = 11;
-  constexpr std::uint64_t kDigits = 1 << kDigitBits;
-  using Places = std::array<std::uint32_t, kDigits>;
+  constexpr int kMostDigitBits = 11;
+  using Places = std::array<std::uint32_t, 1 << kMostDigitBits>;
   const auto n = static_cast<Index>(entries_.size());
   std::vector<Places> places(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   scratch_.resize(entries_.size());
   const auto key_bits = static_cast<int>(std::bit_width(largest_key));
-  for (int shift = 0; shift < key_bits; shift += kDigitBits) {
+  // As few digits as possible, and those as short as possible: a scatter to fewer places.
+  const int digits = std::max(1, (key_bits + kMostDigitBits - 1) / kMostDigitBits);
+  const int digit_bits = (key_bits + digits - 1) / digits;
+  const auto values = std::size_t{1} << digit_bits;
+  for (int shift = 0; shift < key_bits; shift += digit_bits) {
     const auto digit = [&](Index k) {
-      return (entries_[static_cast<std::size_t>(k)].key >> shift) % kDigits;
+      return (entries_[static_cast<std::size_t>(k)].key >> shift) & (values - 1);
     };
     parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
       Places& count = places[static_cast<std::size_t>(first / kBlock)];
-      count.fill(0);
+      std::fill_n(count.begin(), values, 0);
       for (Index k = first; k < last; ++k) ++count[digit(k)];
     });
     std::uint32_t sum = 0;
-    for (std::size_t d = 0; d < kDigits; ++d) {
+    for (std::size_t d = 0; d < values; ++d) {
       for (Places& place : places) sum += std::exchange(place[d], sum);
     }
     parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
