@@ -36,7 +36,7 @@ def state_of(scene: pbf.Scene, time: float) -> State:
     file = CACHE / f"{scene.name}_{key}.npz"
     if not file.exists():
         with Progress(scene.name) as progress:
-            *_, frame = scene.frames(frame_count, progress=progress.update)
+            *_, frame = scene.frames(frame_count, progress=progress.update, fields=["pressure"])
         file.parent.mkdir(parents=True, exist_ok=True)
         np.savez(
             file,

@@ -21,9 +21,11 @@ STRUCTS = [
     (
         pbf.RenderParams,
         (
-            "How the fluid is drawn. In a scene: `[render]`, which has one key more, `color_by`: "
+            "How the fluid is drawn. In a scene: `[render]`, which has two keys more. `color_by`: "
             "`speed`, `density`, `pressure` or `id` gives each particle its value, and range and "
-            "legend that fit all of the scene's frames."
+            "legend that fit all of the scene's frames. `environment_map`: a file of light "
+            "([surroundings.md](surroundings.md)), with which `background` and `reflection` are "
+            "`map` unless given."
         ),
     ),
 ]

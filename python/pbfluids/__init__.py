@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from pbfluids.diagnosis import doctor
     from pbfluids.render import Camera, Mesh, Renderer, RenderParams
     from pbfluids.scene import Frame, Scene
+    from pbfluids.surroundings import read_environment_map, read_mesh
 
 __all__ = [
     "Box",
@@ -51,6 +52,8 @@ __all__ = [
     "doctor",
     "errors",
     "operators",
+    "read_environment_map",
+    "read_mesh",
 ]
 
 # Scenes bring pydantic, which takes longer to import than all the rest. What draws is not there in
@@ -63,6 +66,8 @@ _LAZY = {
     "Renderer": "render",
     "Scene": "scene",
     "doctor": "diagnosis",
+    "read_environment_map": "surroundings",
+    "read_mesh": "surroundings",
 }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from pbfluids.errors import InvalidParameter
 if TYPE_CHECKING:
     from pbfluids.scene import Scene
 
-__all__ = ["LEGENDS", "colors_of_scene", "values"]
+__all__ = ["LEGENDS", "check_fields", "colors_of_scene", "values"]
 
 # Each attribute and what its legend says.
 LEGENDS = {
@@ -24,6 +24,22 @@ LEGENDS = {
     "id": "",
 }
 _STORED_AS = {"density": "densities", "pressure": "pressures", "id": "ids"}
+# Those that cost time, which a frame holds only if it is asked to.
+_FIELDS = ("pressure", "density")
+
+
+def check_fields(fields: Sequence[str]) -> None:
+    """Check the names of what a frame shall hold.
+
+    Raises
+    ------
+    InvalidParameter
+        If it cannot hold one of them.
+    """
+    for name in fields:
+        if name not in _FIELDS:
+            known = " or ".join(f'"{field}"' for field in _FIELDS)
+            raise InvalidParameter(f'fields: "{name}" is unknown; must be {known}')
 
 
 def values(attribute: str, frame: Mapping[str, Any]) -> npt.NDArray[np.float32]:
@@ -47,7 +63,8 @@ def values(attribute: str, frame: Mapping[str, Any]) -> npt.NDArray[np.float32]:
     stored = frame.get(_STORED_AS[attribute])
     if stored is None:
         raise InvalidParameter(
-            f'color_by = "{attribute}": the run holds none; simulate it again with it'
+            f'color_by = "{attribute}": the frame holds none; simulate again with it '
+            f"among the fields (pbfluids run --fields {attribute})"
         )
     # Only the last digits of an id count, of which float32 holds all.
     return np.asarray(stored % 2**24 if attribute == "id" else stored, np.float32)

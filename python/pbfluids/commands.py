@@ -89,6 +89,13 @@ def run(
         bool, typer.Option("--render/--no-render", help="Draw pictures as it goes.")
     ] = True,
     color: Color = None,
+    fields: Annotated[
+        str,
+        typer.Option(
+            metavar="NAMES",
+            help="What else to keep of particles: pressure, density, or pressure,density.",
+        ),
+    ] = "",
     changes: Set = None,
 ) -> None:
     """Simulate a scene and render it."""
@@ -108,6 +115,7 @@ def run(
             render=render,
             size=_size(size),
             video_file=video,
+            fields=[name.strip() for name in fields.split(",")] if fields else [],
             progress=progress.update,
         )
     _print_written(result.path, len(result.frame_indices()), render, video)

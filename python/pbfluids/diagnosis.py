@@ -17,7 +17,12 @@ from pbfluids.render import Camera, Renderer
 
 __all__ = ["Diagnosis", "doctor", "examine"]
 
-_EXTRAS = {"cli": ["typer", "rich"], "video": ["av"]}
+_EXTRAS = {
+    "cli": ["typer", "rich"],
+    "video": ["av"],
+    "meshes": ["trimesh"],
+    "hdr": ["OpenImageIO"],
+}
 
 
 @dataclass(frozen=True)

@@ -130,8 +130,7 @@ class Renderer:
         environment_map : array_like, shape (h, w, 3), float32, or None
             Linear light from all directions: columns once around from behind over the left, ahead
             (-z, where y is up) and the right, rows from straight up to straight down. Files of
-            panoramas are like this; ``cv2.imread("sky.hdr", cv2.IMREAD_UNCHANGED)[..., ::-1]``
-            reads one.
+            panoramas are like this; ``pbf.read_environment_map("sky.hdr")`` reads one.
 
         Raises
         ------
@@ -166,6 +165,7 @@ class Renderer:
             How the fluid is drawn.
         meshes : sequence of Mesh, optional
             Opaque things before, in and behind the fluid. They cast shadows on the floor.
+            ``pbf.read_mesh("boat.obj")`` reads one.
         values : array_like, shape (n,), optional
             A number per particle that becomes its color by ``params.colormap``: spheres have it,
             fluid has the mean of the particles at its surface. Without ``params.color_range`` the

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import platform
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
@@ -21,6 +22,7 @@ from pbfluids.errors import InvalidParameter
 from pbfluids.render import Renderer
 from pbfluids.run_directory import RunDirectory
 from pbfluids.scene import Frame, Scene
+from pbfluids.scene_data import changed
 
 __all__ = ["draw", "simulate"]
 
@@ -53,6 +55,7 @@ def simulate(
     render: bool = True,
     size: tuple[int, int] = (1280, 720),
     video_file: str | Path | None = None,
+    fields: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> RunDirectory:
     """Simulate a scene and write particles and pictures of each frame.
@@ -74,6 +77,9 @@ def simulate(
         Width and height of the pictures in pixels.
     video_file
         An MP4 file to write as well.
+    fields
+        What the files of particles hold beside positions, velocities and ids, as
+        `Scene.frames` takes it.
     progress
         Called after each frame with the number of frames done, of all, and a word on this one.
 
@@ -82,7 +88,7 @@ def simulate(
     InvalidParameter
         If an argument breaks a rule.
     MissingExtra
-        If the video needs a package that is not installed.
+        If the video, a mesh or the environment map needs a package that is not installed.
     RendererUnavailable
         If this machine cannot draw.
     SimulationFailed
@@ -92,7 +98,7 @@ def simulate(
         raise InvalidParameter(f"video = {video_file}: there are no pictures without rendering")
     run = RunDirectory(directory)
     total = scene.frame_count if count is None else count
-    frames = scene.frames(total)
+    frames = scene.frames(total, fields=fields)
     with ExitStack() as stack:
         stages: list[_Stage] = [partial(_write_particles, run)]
         cores: _Cores = nullcontext()
@@ -143,24 +149,26 @@ def draw(
     InvalidParameter
         If the directory holds no run, or an argument breaks a rule.
     MissingExtra
-        If the video needs a package that is not installed.
+        If the video, a mesh or the environment map needs a package that is not installed.
     RendererUnavailable
         If this machine cannot draw.
     """
     run = RunDirectory(directory)
     record = run.read_record()
-    scene = Scene(record["scene"], source=str(run.record_file))
-    scene = scene.replace(**(overrides or {}))
+    scene = Scene(changed(record["scene"], overrides or {}), source=str(run.record_file))
     indices = run.frame_indices()
-    if not indices:
+    total = len(indices)
+    if not total:
         raise InvalidParameter(f"{run.path}: holds no frames of particles")
     width, height = size or record.get("size") or (1280, 720)
     with _pictures(run, scene, (width, height), video_file) as (stages, _):
         run.prepare(particles=False)
 
-        def finished(work: _Work) -> None:
+        done = itertools.count(1)
+
+        def finished(_: _Work) -> None:
             if progress is not None:
-                progress(indices.index(work.index) + 1, len(indices), "")
+                progress(next(done), total, "")
 
         def read(index: int) -> _Work:
             particles = run.read_particles(index)
@@ -180,16 +188,19 @@ def _pictures(
     compresses and writes takes one core each, and fills the gaps that the others leave.
     """
     width, height = size
-    camera, params = scene.camera, scene.render_params
+    camera, params, meshes = scene.camera, scene.render_params, scene.meshes()
+    light = scene.environment_map()
     with ExitStack() as stack:
         if video_file is not None:
             video.check(video_file, width, height)
-        renderer = stack.enter_context(Renderer(width, height))
+        renderer = stack.enter_context(Renderer(width, height, environment_map=light))
         cores: _Cores = threading.Lock() if renderer.software else nullcontext()
 
         def draw_frame(work: _Work) -> _Work:
             with cores:
-                work.image = renderer.render(work.positions, camera, params, values=work.values)
+                work.image = renderer.render(
+                    work.positions, camera, params, meshes=meshes, values=work.values
+                )
             return work
 
         def write_image(work: _Work) -> _Work:

@@ -54,12 +54,11 @@ class RunDirectory:
             "positions": frame.positions,
             "velocities": frame.velocities,
             "ids": frame.ids,
-            "pressures": frame.pressures,
             "time": np.float64(frame.time),
+            "pressures": frame.pressures,
+            "densities": frame.densities,
         }
-        if frame.densities is not None:
-            arrays["densities"] = frame.densities
-        np.savez(data, **arrays)
+        np.savez(data, **{name: array for name, array in arrays.items() if array is not None})
         files.write(self.path / name, data.getvalue())
         return name
 

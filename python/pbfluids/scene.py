@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pbfluids import _core, coloring, toml
+from pbfluids import _core, coloring, surroundings, toml
 from pbfluids.errors import InvalidParameter, SceneError
 from pbfluids.scene_check import check
-from pbfluids.scene_data import changed, plain, without_absent
+from pbfluids.scene_data import changed, located, plain, without_absent
 from pbfluids.scene_model import SceneModel, for_struct
 from pbfluids.simulation import Simulation
 
@@ -37,10 +37,8 @@ class Frame:
         Shape (n, 3), float32 [m], [m/s]; row i is particle ``ids[i]``.
     ids
         Shape (n,), int64.
-    pressures
-        Shape (n,), float32 [Pa]; 0 in frame 0.
-    densities
-        Shape (n,), float32 [kg/m^3], in scenes colored by density; else None.
+    pressures, densities
+        Shape (n,), float32 [Pa], [kg/m^3], where they were asked for; else None.
     state_hash
         16 hexadecimal digits, equal for equal bits and so for any number of threads.
     report
@@ -52,7 +50,7 @@ class Frame:
     positions: npt.NDArray[np.float32]
     velocities: npt.NDArray[np.float32]
     ids: npt.NDArray[np.int64]
-    pressures: npt.NDArray[np.float32]
+    pressures: npt.NDArray[np.float32] | None
     densities: npt.NDArray[np.float32] | None
     state_hash: str
     report: _core.StepReport | None
@@ -64,7 +62,8 @@ class Scene:
     Parameters
     ----------
     data
-        The scene's tables, as TOML gives them.
+        The scene's tables, as TOML gives them. Names of files are relative to the working
+        directory.
     source
         What an error message calls the scene, for example its path.
 
@@ -75,7 +74,7 @@ class Scene:
     """
 
     def __init__(self, data: Mapping[str, Any], source: str = "scene") -> None:
-        tables = plain(data)
+        tables = located(plain(data), Path.cwd())
         model, faults = check(tables)
         if faults or model is None:
             raise SceneError(f"{source}: {_count(faults)}\n  " + "\n  ".join(faults))
@@ -90,9 +89,10 @@ class Scene:
         Parameters
         ----------
         path
-            A TOML file.
+            A TOML file. Names of files in it are relative to it.
         **overrides
-            Changes, as `replace` takes them.
+            Changes, as `replace` takes them; names of files in them are relative to the working
+            directory.
 
         Raises
         ------
@@ -104,7 +104,8 @@ class Scene:
         except (OSError, UnicodeDecodeError) as error:
             reason = getattr(error, "strerror", None) or error
             raise SceneError(f"{path}: cannot be read: {reason}") from error
-        return cls(changed(_parsed(text, str(path)), overrides), str(path))
+        data = located(_parsed(text, str(path)), Path(path).parent)
+        return cls(changed(data, overrides), str(path))
 
     @classmethod
     def builtin(cls, name: str, **overrides: Any) -> Scene:
@@ -245,6 +246,8 @@ class Scene:
         }
         if domain:
             derived |= {"tank_lower": domain["lower"], "tank_upper": domain["upper"]}
+        if self._tables["render"]["environment_map"] is not None:
+            derived |= {"background": "map", "reflection": "map"}
         if self.color_by is not None:
             derived |= coloring.colors_of_scene(self, self.color_by)
         return _core.RenderParams(**{**derived, **given})
@@ -288,6 +291,31 @@ class Scene:
             positions[:, 2] = positions[:1, 2]  # one plane, to the last bit
         return positions, np.repeat(np.array(velocities, np.float32), counts, axis=0)
 
+    def meshes(self) -> list[_core.Mesh]:
+        """Read the opaque things of the picture, for `Renderer.render`; no fluid feels them.
+
+        Raises
+        ------
+        InvalidParameter
+            If a file is missing or holds no mesh that can be drawn.
+        MissingExtra
+            If trimesh is not installed.
+        """
+        return [surroundings.read_mesh(**table) for table in self._tables["meshes"]]
+
+    def environment_map(self) -> npt.NDArray[np.float32] | None:
+        """Read the light around the scene, for `Renderer`; None if the scene names no file.
+
+        Raises
+        ------
+        InvalidParameter
+            If the file is missing or holds no light.
+        MissingExtra
+            If OpenImageIO is not installed.
+        """
+        file = self._tables["render"]["environment_map"]
+        return None if file is None else surroundings.read_environment_map(file)
+
     def simulation(self) -> Simulation:
         """Make a simulation of the scene, at its start."""
         simulation = Simulation(self.fluid, self.solver, domain=self.domain)
@@ -296,7 +324,11 @@ class Scene:
         return simulation
 
     def frames(
-        self, count: int | None = None, progress: Callable[[int, int], None] | None = None
+        self,
+        count: int | None = None,
+        progress: Callable[[int, int], None] | None = None,
+        *,
+        fields: Sequence[str] = (),
     ) -> Iterator[Frame]:
         """Simulate, and give the fluid at each frame.
 
@@ -306,6 +338,9 @@ class Scene:
             Number of frames, frame 0 among them; `frame_count` if not given.
         progress
             Called before each frame is given with the number of frames done and of all.
+        fields
+            What frames hold beside positions, velocities and ids: "pressure", "density". What
+            `color_by` names is held anyway. Each takes a sweep over all neighbors per frame.
 
         Yields
         ------
@@ -315,16 +350,18 @@ class Scene:
         Raises
         ------
         InvalidParameter
-            If the count is not positive.
+            If the count is not positive, or a field has another name.
         SimulationFailed
             If a step cannot be completed.
         """
         if count is not None and count < 1:
             raise InvalidParameter(f"count = {count}: must be >= 1 frame")
-        return self._simulated(self.frame_count if count is None else count, progress)
+        coloring.check_fields(fields)
+        held = {*fields, self.color_by}
+        return self._simulated(self.frame_count if count is None else count, held, progress)
 
     def _simulated(
-        self, count: int, progress: Callable[[int, int], None] | None
+        self, count: int, held: Set[str | None], progress: Callable[[int, int], None] | None
     ) -> Iterator[Frame]:
         simulation = self.simulation()
         report = None
@@ -337,8 +374,8 @@ class Scene:
                 simulation.positions,
                 simulation.velocities,
                 simulation.ids,
-                simulation.pressures,
-                simulation.densities if self.color_by == "density" else None,
+                simulation.pressures if "pressure" in held else None,
+                simulation.densities if "density" in held else None,
                 simulation.state_hash(),
                 report,
             )

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import difflib
 import json
+import os
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic import ValidationError
 
 from pbfluids.errors import InvalidParameter, WrongType
+from pbfluids.scene_data import Path, files_of
 from pbfluids.scene_geometry import geometry_faults
 from pbfluids.scene_model import (
     STRUCTS,
@@ -22,8 +24,6 @@ from pbfluids.scene_model import (
     for_struct,
 )
 
-Path = tuple[str | int, ...]
-
 # pydantic's names of faults, and the rule that was broken.
 _RULES = {
     "bool_type": "must be true or false",
@@ -31,8 +31,10 @@ _RULES = {
     "finite_number": "must be finite",
     "float_type": "must be a number",
     "greater_than": "must be > {gt:g}",
+    "greater_than_equal": "must be >= {ge:g}",
     "int_from_float": "must be a whole number",
     "int_type": "must be a whole number",
+    "less_than_equal": "must be <= {le:g}",
     "list_type": "must be a list",
     "literal_error": "must be {expected}",
     "model_type": "must be a table",
@@ -73,6 +75,7 @@ def check(data: Mapping[str, Any]) -> tuple[SceneTables | None, list[str]]:
     if not items and not any(path[0] in ("blocks", "balls") for path in wrong):
         faults.append("blocks: missing, there is no fluid without [[blocks]] or [[balls]]")
     faults += geometry_faults(items, _sound_domain(data, wrong), structs["fluid"])
+    faults += _file_faults(data)
     return model, faults
 
 
@@ -137,6 +140,13 @@ def _sound_items(data: Mapping[str, Any], wrong: set[Path]) -> Iterator[tuple[st
             for k, item in enumerate(data.get(kind, [])):
                 if not _is_wrong((kind, k), wrong):
                     yield f"{kind}[{k}]", model.model_validate(item)
+
+
+def _file_faults(data: Mapping[str, Any]) -> Iterator[str]:
+    """Look whether the files are there that the scene names."""
+    for path, file in files_of(data):
+        if not os.path.isfile(file):  # noqa: PTH113 - no name, however odd, makes this raise
+            yield f"{path_text(path)} = {json.dumps(file)}: there is no such file"
 
 
 def _sound_domain(data: Mapping[str, Any], wrong: set[Path]) -> Domain | None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
@@ -11,11 +13,16 @@ import numpy as np
 from pbfluids.errors import SceneError
 from pbfluids.scene_model import STRUCTS, TABLES, SceneModel
 
+# Where a value is inside a scene.
+Path = tuple[str | int, ...]
+
 
 def plain(value: Any) -> Any:
     """Turn what Python code likes to give, tuples and arrays, into what TOML gives."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, FilePath):
+        return str(value)
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     if isinstance(value, list | tuple):
@@ -41,6 +48,27 @@ def changed(data: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, 
             target[last] = {**target[last], **value}
         else:
             target[last] = value
+    return result
+
+
+def files_of(data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
+    """Give the names of files in a scene, sound or not, with their paths inside the scene."""
+    meshes, render = data.get("meshes"), data.get("render")
+    for k, mesh in enumerate(meshes if isinstance(meshes, list) else []):
+        if isinstance(mesh, Mapping) and isinstance(mesh.get("file"), str):
+            yield ("meshes", k, "file"), mesh["file"]
+    if isinstance(render, Mapping) and isinstance(render.get("environment_map"), str):
+        yield ("render", "environment_map"), render["environment_map"]
+
+
+def located(data: Mapping[str, Any], folder: str | FilePath) -> dict[str, Any]:
+    """Give the data with absolute names of files; those that are not are relative to a folder."""
+    result = copy.deepcopy(dict(data))
+    for (*tables, last), file in files_of(data):
+        target: Any = result
+        for table in tables:
+            target = target[table]
+        target[last] = os.path.abspath(os.path.join(folder, file))  # noqa: PTH100, PTH118
     return result
 
 

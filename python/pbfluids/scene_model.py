@@ -18,6 +18,7 @@ from pbfluids.coloring import LEGENDS
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Color = Annotated[list[Annotated[Number, Field(ge=0, le=1)]], Field(min_length=3, max_length=3)]
 Axes = Annotated[list[bool], Field(min_length=3, max_length=3)]
 
 ParameterStruct = (
@@ -48,18 +49,28 @@ DERIVED: dict[str, dict[str, str]] = {
         "color_range": "what the scene's energy allows, the same for all frames.",
         "legend": "name and unit of what color_by names.",
         "particle_volume": "the cube of the fluid's spacing.",
+        "background": "map with environment_map; else sky.",
+        "reflection": "map with environment_map.",
         "tank_lower": "the domain's.",
         "tank_upper": "the domain's.",
     },
 }
 
-# Keys that a scene's table has beside its struct's, which knows nothing of a solver.
+# Keys that a scene's table has beside its struct's, which knows nothing of solvers and files.
 _BESIDES: dict[str, dict[str, Any]] = {
     "render": {
         "color_by": (
             Literal[tuple(LEGENDS)] | None,
             Field(default=None, description="What gives the particles their colors."),
-        )
+        ),
+        "environment_map": (
+            str | None,
+            Field(
+                default=None,
+                description="Panorama of light around the scene: an .hdr or .exr file. A path is "
+                "relative to the scene file.",
+            ),
+        ),
     }
 }
 
@@ -158,11 +169,28 @@ class Ball(Table):
     velocity: Vec3 = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
 
 
+class MeshFile(Table):
+    """An opaque thing that is drawn with the fluid, which does not feel it."""
+
+    file: str = Field(
+        description="OBJ, STL, PLY or what else trimesh reads. A path is relative to the scene "
+        "file.",
+    )
+    position: Vec3 = Field([0.0, 0.0, 0.0], description="Where the file's origin goes [m].")
+    scale: Number = Field(1.0, gt=0, description="How long the file's unit is [m].")
+    rotation: Vec3 = Field(
+        [0.0, 0.0, 0.0],
+        description="Turns about x, then y, then z, through the file's origin [degrees].",
+    )
+    color: Color | None = Field(None, description="Linear, 0 to 1; a gray if not given.")
+
+
 # Every table below the top, by its key.
 TABLES: dict[str, type[Table]] = {
     "domain": Domain,
     "blocks": Block,
     "balls": Ball,
+    "meshes": MeshFile,
     **{section: _table_of(section) for section in STRUCTS},
 }
 
@@ -178,6 +206,7 @@ class SceneTables(Table):
     domain: Domain | None = None
     blocks: list[Block] = Field([], description="Boxes of fluid.")
     balls: list[Ball] = Field([], description="Balls of fluid.")
+    meshes: list[MeshFile] = Field([], description="Opaque things in the picture.")
 
 
 _SECTIONS: dict[str, Any] = {

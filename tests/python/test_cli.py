@@ -68,7 +68,7 @@ def test_the_particles_are_those_of_the_scene_s_frames(run, tiny_file, tmp_path)
     record = record_of(tmp_path / "out")
     for frame in pbf.Scene.load(tiny_file).frames():
         with np.load(tmp_path / f"out/particles/frame_{frame.index:05d}.npz") as arrays:
-            assert sorted(arrays) == ["ids", "positions", "pressures", "time", "velocities"]
+            assert sorted(arrays) == ["ids", "positions", "time", "velocities"]
             np.testing.assert_array_equal(arrays["positions"], frame.positions)
             np.testing.assert_array_equal(arrays["velocities"], frame.velocities)
             np.testing.assert_array_equal(arrays["ids"], frame.ids)
@@ -222,7 +222,8 @@ def test_color_paints_a_run_and_paints_it_again_by_something_else(run, tiny_file
             return np.asarray(opened).copy()
 
     out = tmp_path / "out"
-    assert run("run", tiny_file, "--out", out, *SIZE, "--color", "speed")[0] == 0
+    held = ("--fields", "pressure")
+    assert run("run", tiny_file, "--out", out, *SIZE, "--color", "speed", *held)[0] == 0
     pictures = {"speed": picture()}
     for attribute in ("pressure", "id"):
         assert run("render", out, "--color", attribute)[0] == 0
@@ -234,14 +235,31 @@ def test_color_paints_a_run_and_paints_it_again_by_something_else(run, tiny_file
 
 
 @pytest.mark.gl
-def test_densities_are_there_if_the_run_was_colored_by_them(run, tiny_file, tmp_path):
+@pytest.mark.parametrize("field", ["pressure", "density"])
+def test_a_field_is_there_if_the_run_was_colored_by_it(run, tiny_file, tmp_path, field):
     out = tmp_path / "out"
     assert run("run", tiny_file, "--out", out, *SIZE)[0] == 0
-    code, _, stderr = run("render", out, "--color", "density")
+    code, _, stderr = run("render", out, "--color", field)
     assert code == 2
-    assert 'color_by = "density": the run holds none; simulate it again with it' in stderr
-    assert run("run", tiny_file, "--out", out, *SIZE, "--color", "density")[0] == 0
+    assert f'color_by = "{field}": the frame holds none; simulate again with it' in stderr
+    assert f"pbfluids run --fields {field}" in stderr
+    assert run("run", tiny_file, "--out", out, *SIZE, "--color", field)[0] == 0
     assert run("render", out)[0] == 0
+
+
+def test_the_files_hold_the_fields_that_were_asked_for(run, tiny_file, tmp_path):
+    out = tmp_path / "out"
+    asked = ("--fields", "pressure, density")
+    assert run("run", tiny_file, "--out", out, "--no-render", *asked)[0] == 0
+    *_, last = pbf.Scene.load(tiny_file).frames(fields=["density", "pressure"])
+    with np.load(out / "particles/frame_00002.npz") as arrays:
+        np.testing.assert_array_equal(arrays["pressures"], last.pressures)
+        np.testing.assert_array_equal(arrays["densities"], last.densities)
+    before = (out / "run.json").read_bytes()
+    code, _, stderr = run("run", tiny_file, "--out", out, "--no-render", "--fields", "speed")
+    assert code == 2
+    assert 'fields: "speed" is unknown; must be "pressure" or "density"' in stderr
+    assert (out / "run.json").read_bytes() == before
 
 
 def test_a_damaged_frame_is_named(run, tiny_file, tmp_path):

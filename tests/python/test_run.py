@@ -49,7 +49,7 @@ class FakeRenderer:
     software = True
     on_render = staticmethod(lambda _number: None)
 
-    def __init__(self, width, height):
+    def __init__(self, width, height, **_light):
         self._shape, self._number = (height, width, 4), 0
 
     def render(self, *_, **_values):
@@ -104,6 +104,30 @@ def test_progress_comes_in_order_from_the_caller_s_thread(scene, tmp_path, fake)
     seen.clear()
     draw(tmp_path, progress=progress)
     assert seen == [(k + 1, COUNT, "") for k in range(COUNT)]
+
+
+def test_progress_of_drawing_again_counts_the_frames_that_are_there(scene, tmp_path, fake):
+    simulate(scene, tmp_path, count=COUNT, size=(8, 8))
+    (tmp_path / "particles/frame_00001.npz").unlink()
+    seen = []
+    draw(tmp_path, progress=lambda *step: seen.append(step))
+    assert seen == [(k + 1, COUNT - 1, "") for k in range(COUNT - 1)]
+
+
+@pytest.mark.parametrize("color_by", ["speed", "density", "pressure"])
+def test_a_field_that_nobody_asked_for_is_not_computed(
+    scene, tmp_path, fake, monkeypatch, color_by
+):
+    computed = []
+    for name in ("densities", "pressures"):
+        compute = getattr(pbf.Simulation, name).fget
+        counted = property(
+            lambda self, name=name, compute=compute: computed.append(name) or compute(self)
+        )
+        monkeypatch.setattr(pbf.Simulation, name, counted)
+    simulate(scene.replace(color_by=color_by), tmp_path, count=COUNT, size=(8, 8))
+    expected = {"speed": [], "density": ["densities"], "pressure": ["pressures"]}[color_by]
+    assert computed == expected * COUNT
 
 
 @pytest.fixture

@@ -253,7 +253,7 @@ def test_the_schema_says_what_the_structs_say():
     for section, struct in STRUCTS.items():
         table = schema["$defs"][section.capitalize()]
         assert table["additionalProperties"] is False
-        besides = {"render": ["color_by"]}.get(section, [])
+        besides = {"render": ["color_by", "environment_map"]}.get(section, [])
         names = [field["name"] for field in struct.describe()]
         assert list(table["properties"]) == names + besides
         for field in struct.describe():
@@ -369,11 +369,73 @@ def test_any_text_survives_toml(tiny):
     assert pbf.Scene(toml.loads(scene.to_toml())).description == tiny["description"]
 
 
+def test_files_are_found_beside_the_scene_file_and_kept_by_absolute_names(
+    tiny, tmp_path, monkeypatch
+):
+    (tmp_path / "shapes").mkdir()
+    for name in ("shapes/a.stl", "sky.hdr"):
+        (tmp_path / name).touch()
+    scene_file = tmp_path / "shapes" / "tiny.toml"
+    tiny["meshes"] = [{"file": "a.stl"}]
+    tiny["render"] = {"environment_map": "../sky.hdr"}
+    scene_file.write_text(toml.dumps(tiny), encoding="utf-8")
+    scene = pbf.Scene.load(scene_file)
+    data = scene.as_dict()
+    assert data["meshes"][0]["file"] == str(tmp_path / "shapes/a.stl")
+    assert data["render"]["environment_map"] == str(tmp_path / "sky.hdr")
+    assert pbf.Scene(toml.loads(scene.to_toml())) == scene
+    # What is no part of the file is relative to the working directory.
+    monkeypatch.chdir(tmp_path)
+    tiny["meshes"][0]["file"] = "shapes/a.stl"
+    tiny["render"]["environment_map"] = tmp_path / "sky.hdr"
+    assert pbf.Scene(tiny) == scene
+    assert pbf.Scene.load(scene_file, environment_map="sky.hdr") == scene
+
+
+def test_files_that_are_not_there_are_faults_beside_the_others(tiny, tmp_path):
+    tiny["duration"] = -1
+    tiny["meshes"] = [{"file": str(tmp_path / "no.obj")}, {"file": str(tmp_path), "scale": 0}]
+    tiny["render"] = {"environment_map": "/no\0where.hdr", "radius": -1}
+    assert [fault.split(" =")[0] for fault in faults_of(tiny)] == [
+        "duration",
+        "meshes[1].scale",
+        "render.radius",
+        "meshes[0].file",
+        "meshes[1].file",
+        "render.environment_map",
+    ]
+    assert f'"{tmp_path}/no.obj": there is no such file' in faults_of(tiny)[3]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "fault"),
+    [
+        ({}, "meshes[0].file: missing"),
+        ({"file": 3}, "meshes[0].file = 3: must be a string"),
+        ({"file": __file__, "colr": 1}, 'meshes[0].colr: unknown, did you mean "color"?'),
+        ({"file": __file__, "color": [0, 0, 2]}, "meshes[0].color[2] = 2: must be <= 1"),
+        ({"file": __file__, "color": [-1, 0, 0]}, "meshes[0].color[0] = -1: must be >= 0"),
+        ({"file": __file__, "rotation": [0, 0]}, "meshes[0].rotation = [0, 0]: must have 3 values"),
+    ],
+)
+def test_a_mesh_that_breaks_a_rule_is_named_with_the_rule(tiny, mesh, fault):
+    assert faults_of({**tiny, "meshes": [mesh]}) == [fault]
+
+
+def test_a_map_of_light_is_shown_and_mirrored_unless_the_scene_says_otherwise(tiny):
+    assert pbf.Scene(tiny).render_params.background == "sky"
+    lit = pbf.Scene(tiny).replace(environment_map=__file__)
+    assert (lit.render_params.background, lit.render_params.reflection) == ("map", "map")
+    plain = lit.replace(background="plain").render_params
+    assert (plain.background, plain.reflection) == ("plain", "map")
+
+
 PATHS = [
     *(("fluid",), ("solver",), ("domain",), ("blocks",), ("balls",), ("camera",), ("render",)),
     *(("fluid", "spacing"), ("fluid", "gravity"), ("solver", "iterations"), ("domain", "upper")),
     *(("blocks", 0), ("blocks", 0, "lower"), ("blocks", 0, "upper", 1), ("name",), ("duration",)),
     *(("schema",), ("frame_rate",), ("camera", "eye"), ("render", "radius")),
+    *(("meshes",), ("meshes", 0), ("meshes", 0, "file"), ("render", "environment_map")),
 ]
 VALUES = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
@@ -388,6 +450,7 @@ VALUES = st.recursive(
 @given(st.lists(st.tuples(st.sampled_from(PATHS), VALUES), min_size=1, max_size=3))
 def test_whatever_a_file_holds_it_is_a_scene_or_a_scene_error(changes):
     data = copy.deepcopy({**TINY, "balls": [], "camera": {}, "render": {}})
+    data["meshes"] = [{"file": __file__}]
     for path, value in changes:
         table = data
         for step in path[:-1]:
@@ -440,6 +503,7 @@ def test_other_attributes_have_their_ranges_too(tiny, color_by, range_in_force, 
     }[color_by]
     assert np.array_equal(scene.values(last), expected)
     assert (last.densities is None) == (color_by != "density")
+    assert (last.pressures is None) == (color_by != "pressure")
 
 
 def test_what_the_scene_says_of_colors_comes_first(tiny):

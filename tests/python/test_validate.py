@@ -112,10 +112,10 @@ def test_an_unknown_case_is_refused_with_those_that_there_are(capsys) -> None:
 
 def test_the_page_is_not_written_from_a_quick_run_nor_from_none(tmp_path, capsys) -> None:
     docs = ["--out", str(tmp_path), "--write-docs", str(tmp_path / "docs")]
-    assert __main__.main(docs) == 1
+    assert __main__.main(docs) == 2
     assert "run `python -m pbfluids.validate dam_break_front` first" in capsys.readouterr().err
     (tmp_path / "dam_break_front.json").write_text('{"quick": true}', encoding="utf-8")
-    assert __main__.main(docs) == 1
+    assert __main__.main(docs) == 2
     assert "is of a quick run" in capsys.readouterr().err
 
 

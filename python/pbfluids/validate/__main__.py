@@ -13,11 +13,11 @@ from typing import Any
 
 from pbfluids import files
 from pbfluids._version import __version__
-from pbfluids.errors import FluidError
+from pbfluids.errors import FluidError, InvalidParameter, WrongType
 from pbfluids.validate import CASES, load, report
 from pbfluids.validate.case import Check, Frames, Settings
 
-FAILURE, INTERRUPTED = 1, 130
+FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except (FluidError, OSError) as error:
         print(f"pbfluids.validate: {error}", file=sys.stderr)
-        return FAILURE
+        return BAD_INPUT if isinstance(error, InvalidParameter | WrongType) else FAILURE
     return FAILURE if failed else 0
 
 
