@@ -29,10 +29,13 @@ void predict(const Records& x,
   wrap(disc.domain, x_star, threads);
 }
 
-void update_velocity(const Records& u, Real dt, int threads, Records& v) {
+void update_velocity(
+    const Records& u, Real dt, int threads, Records& v, std::vector<Real>& totals) {
   v.resize(u.size());
+  totals.resize(static_cast<std::size_t>(u.size()));
   parallel_for(u.size(), threads, [&](Index i) {
     v[i] = {u[i].x / dt, u[i].y / dt, u[i].z / dt, v[i].w};
+    totals[static_cast<std::size_t>(i)] = u[i].w;
   });
 }
 

@@ -3,6 +3,7 @@
 #include "pbf/fluid/discretization.hpp"
 
 #include <bit>
+#include <vector>
 
 namespace pbf {
 
@@ -45,7 +46,7 @@ void predict(const Records& x,
              Records& x_star,
              Records& u);
 
-/// v = u/dt = (x* − x)/dt   Algorithm 1, line 20 [MM13].
-void update_velocity(const Records& u, Real dt, int threads, Records& v);
+/// v = u/dt = (x* − x)/dt, Algorithm 1, line 20 [MM13]; totals are u's fourth numbers.
+void update_velocity(const Records& u, Real dt, int threads, Records& v, std::vector<Real>& totals);
 
 }  // namespace pbf

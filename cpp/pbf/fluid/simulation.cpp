@@ -145,10 +145,7 @@ StepReport Simulation::step(Real dt) {
   }
   {
     const auto t = report.time(Stage::velocity);
-    update_velocity(u_, dt, threads, v_new_);
-    new_totals_.resize(state_.totals.size());
-    parallel_for(size(), threads,
-                 [&](Index i) { new_totals_[static_cast<std::size_t>(i)] = u_[i].w; });
+    update_velocity(u_, dt, threads, v_new_, new_totals_);
     near_.ghosts.refresh(v_new_, threads);
   }
   if (solver_.vorticity > 0) {
