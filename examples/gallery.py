@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +26,13 @@ SIZE = (1280, 720)
 
 State = dict[str, npt.NDArray[np.float32]]
 Image = npt.NDArray[np.uint8]
+Light = npt.NDArray[np.float32]
 
 
 def state_of(scene: pbf.Scene, time: float) -> State:
     """Simulate a scene up to a time [s], or remember having done so."""
     frame_count = 1 + round(time * scene.frame_rate)
-    solved = {k: v for k, v in scene.as_dict().items() if k not in ("camera", "render")}
+    solved = {k: v for k, v in scene.as_dict().items() if k not in ("camera", "render", "meshes")}
     key = hashlib.sha256(f"{pbf.__version__} {solved} {frame_count}".encode()).hexdigest()[:16]
     file = CACHE / f"{scene.name}_{key}.npz"
     if not file.exists():
@@ -49,11 +50,22 @@ def state_of(scene: pbf.Scene, time: float) -> State:
         return dict(arrays)
 
 
-def draw(scene: pbf.Scene, state: State, size: tuple[int, int] = SIZE) -> Image:
+def draw(
+    scene: pbf.Scene,
+    state: State,
+    size: tuple[int, int] = SIZE,
+    *,
+    meshes: Sequence[pbf.Mesh] = (),
+    light: Light | None = None,
+) -> Image:
     """Draw a state as its scene says."""
-    with pbf.Renderer(*size) as renderer:
+    with pbf.Renderer(*size, environment_map=light) as renderer:
         return renderer.render(
-            state["positions"], scene.camera, scene.render_params, values=scene.values(state)
+            state["positions"],
+            scene.camera,
+            scene.render_params,
+            meshes=meshes,
+            values=scene.values(state),
         )
 
 
@@ -90,14 +102,15 @@ def collision() -> Image:
 
 def speed() -> Image:
     """Show the speed of a dam break, on the fluid and on the particles themselves."""
-    scene = pbf.Scene.builtin("dam_break", color_by="speed")
-    camera = {"target": [1.2, 0.42, 0.25], "eye": [1.9, 1.15, 2.8], "fov_y": 62.0}
+    scene = pbf.Scene.builtin("dam_break", color_by="speed", color_range=[0.0, 4.0])
     state = state_of(scene, 0.5)
-    fluid = scene.replace(camera=camera, legend="")
-    spheres = scene.replace(camera=camera, style="spheres", color_range=[0.0, 4.0])
-    fluid = fluid.replace(color_range=[0.0, 4.0])
-    half = (SIZE[0] // 2, SIZE[1])
-    return beside(draw(fluid, state, half), draw(spheres, state, half))
+    # The tank on the left of each half leaves room for the legend.
+    scene = scene.replace(camera={"target": [1.2, 0.45, 0.25], "eye": [1.9, 1.3, 4.2], "fov_y": 30})
+    half = (SIZE[0] // 2, 480)
+    return beside(
+        draw(scene.replace(legend=""), state, half),
+        draw(scene.replace(style="spheres"), state, half),
+    )
 
 
 def pressure() -> Image:
@@ -172,16 +185,23 @@ def liquids() -> Image:
 
 
 def smoothing() -> Image:
-    """Show a detail as spheres make it, and smoothed in three ways."""
-    scene = pbf.Scene.builtin("dam_break", spacing=0.015)
-    state = state_of(scene, 0.9)
-    camera = {"eye": [1.3, 0.9, 1.4], "target": [1.55, 0.35, 0.25], "fov_y": 32.0}
+    """Show a detail as spheres make it, and smoothed by each filter."""
+    scene = pbf.Scene.load(SCENES / "collision.toml").replace(render=STUDIO)
+    scene = scene.replace(
+        camera={"eye": [0.75, 0.35, 1.2], "target": [0.0, 0.06, 0.0], "fov_y": 14}
+    )
+    state = state_of(scene, 0.1)
     looks = [
-        {"smoothing_iterations": 0, "thickness_iterations": 0},
-        *({"smoothing": name} for name in ("bilateral", "narrow_range", "curvature_flow")),
+        {"smoothing_iterations": 0},
+        *(
+            {"smoothing": name}
+            for name in ("gaussian", "bilateral", "narrow_range", "curvature_flow")
+        ),
     ]
-    part = (SIZE[0] // 4 - 3, SIZE[1])
-    return beside(*(draw(scene.replace(camera=camera, render=look), state, part) for look in looks))
+    part = (SIZE[0] // 5 - 3, 480)
+    return beside(
+        *(draw(scene.replace(render=look), state, part, light=softboxes()) for look in looks)
+    )
 
 
 def paper() -> Image:
@@ -194,9 +214,88 @@ def paper() -> Image:
     return np.rint(alpha * image + (1 - alpha) * 255).astype(np.uint8)
 
 
+def knot() -> Image:
+    """Show a knot that stands in a pool: before, in and behind the water, and its shadow."""
+    scene = pbf.Scene.load(SCENES / "pond.toml")
+    t = np.linspace(0, 2 * np.pi, 240, endpoint=False)
+    axis = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)])
+    mesh = tube([0.46, 0.122, 0.3] + 0.036 * axis.T, radius=0.022, color=(0.7, 0.2, 0.05))
+    return draw(scene, state_of(scene, 0.3), meshes=[mesh])
+
+
+def tube(axis: npt.NDArray[np.float64], radius: float, color: tuple[float, ...]) -> pbf.Mesh:
+    """Make a closed tube around a closed line of points."""
+    count, sides = len(axis), 40
+    along = np.roll(axis, -1, axis=0) - np.roll(axis, 1, axis=0)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    out = axis - axis.mean(axis=0)  # any direction that is not along the line
+    out -= (out * along).sum(axis=1, keepdims=True) * along
+    out /= np.linalg.norm(out, axis=1, keepdims=True)
+    angle = 2 * np.pi * np.arange(sides)[:, None] / sides
+    ring = out[:, None] * np.cos(angle) + np.cross(along, out)[:, None] * np.sin(angle)
+    points = axis[:, None] + radius * ring
+    i, j = np.meshgrid(np.arange(count), np.arange(sides), indexing="ij")
+    i1, j1 = (i + 1) % count, (j + 1) % sides
+    a, b, c, d = (u * sides + v for u, v in [(i, j), (i1, j), (i1, j1), (i, j1)])
+    faces = np.stack([a, c, b, a, d, c], axis=-1).reshape(-1, 3)
+    return pbf.Mesh(points.reshape(-1, 3), faces, color)
+
+
+def studio() -> Image:
+    """Show two drops as they meet, in the light of a studio: softboxes and a small bright sun."""
+    scene = pbf.Scene.load(SCENES / "collision.toml").replace(render=STUDIO, fov_y=26.0)
+    return draw(scene, state_of(scene, 0.1), light=softboxes())
+
+
+STUDIO = {
+    "color_by": None,
+    "color_range": None,
+    "background": "map",
+    "reflection": "map",
+    "absorption": [1.5, 0.7, 0.4],
+}
+
+
+def softboxes(height: int = 512) -> Light:
+    """Make the light: a dim room with warm and cold softboxes, and a sun 1000 times white."""
+    elevation = np.pi * (0.5 - (np.arange(height)[:, None] + 0.5) / height)
+    azimuth = np.pi * ((np.arange(2 * height)[None] + 0.5) / height - 1)  # 0 ahead, right above 0
+    room = np.interp(elevation, [-1.6, -0.3, 0.02, 0.5, 1.6], [0.08, 0.16, 0.75, 0.3, 0.1])
+    light = room[..., None] * np.ones((height, 2 * height, 3)) * (0.9, 1.0, 1.15)
+
+    def box(at: tuple[float, float], half: tuple[float, float], color: tuple[float, ...]) -> None:
+        """Add a lamp at (azimuth, elevation), with edges a little soft [degrees]."""
+        turn = (np.degrees(azimuth) - at[0] + 180) % 360 - 180
+        edge = np.maximum(np.abs(turn) - half[0], np.abs(np.degrees(elevation) - at[1]) - half[1])
+        light[...] += np.clip(0.5 - edge / 2, 0, 1)[..., None] * color
+
+    box((105, 42), (24, 14), (40.0, 35.0, 28.0))
+    box((-150, 25), (8, 24), (14.0, 20.0, 30.0))
+    box((20, 62), (60, 6), (16.0, 16.0, 16.0))
+    box((150, 50), (1.5, 1.5), (1000.0, 900.0, 800.0))
+    return light.astype(np.float32)
+
+
+def vtk() -> Image:
+    """Show the same particles from the same camera, drawn by VTK's fluid mapper and here."""
+    sys.path.insert(0, str(ROOT / "bench" / "python"))
+    from vs_vtk import Case, our_drawer, vtk_drawer
+
+    scene = pbf.Scene.builtin("dam_break", spacing=0.015)
+    positions = state_of(scene, 0.9)["positions"]
+    case = Case("", scene.fluid.spacing, "720p")
+    parts = []
+    for drawing, read in (vtk_drawer(case), our_drawer(case, as_it_comes=True)):
+        drawing(positions)
+        alpha = np.full((SIZE[1], SIZE[0], 1), 255, np.uint8)
+        image = np.concatenate([read()[..., :3], alpha], axis=2)
+        parts.append(image[:, 400:1040])  # where the fluid is
+    return beside(*parts)
+
+
 PICTURES: list[Callable[[], Image]] = [
     *(dam_break, double_dam_break, crown, collision, speed, pressure, taylor_green),
-    *(drops, liquids, smoothing, paper),
+    *(drops, liquids, smoothing, paper, knot, studio, vtk),
 ]
 
 
@@ -210,8 +309,12 @@ def main(names: list[str], directory: Path) -> None:
     with Progress("gallery") as progress:
         for done, name in enumerate(chosen, start=1):
             file = directory / f"{name}.png"
-            file.write_bytes(png.encode(known[name]()[..., :3]))
-            progress.update(done, len(chosen), f"{file} {file.stat().st_size / 1e3:.0f} kB")
+            try:
+                file.write_bytes(png.encode(known[name]()[..., :3]))
+                note = f"{file} {file.stat().st_size / 1e3:.0f} kB"
+            except ModuleNotFoundError as error:
+                note = f"{name} left out: pip install {error.name}"
+            progress.update(done, len(chosen), note)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pbfluids._core import Mesh
-from pbfluids.errors import InvalidParameter, MissingExtra
+from pbfluids.errors import InvalidParameter, MissingExtra, WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -50,12 +50,16 @@ def read_mesh(
     InvalidParameter
         If the file is missing, is no mesh, holds no triangles, or is a closed surface turned
         inside out, of which only the inside would be seen; or if a number is out of range.
+    WrongType
+        If a place is told by no real numbers.
     MissingExtra
         If trimesh is not installed.
     """
-    if not (np.isfinite(scale) and scale > 0):
-        raise InvalidParameter(f"scale = {scale:g} m: must be finite and > 0")
-    origin, turn = _vector("position", position), _rotation(_vector("rotation", rotation))
+    unit = _numbers("scale", scale, ())
+    if unit <= 0:
+        raise InvalidParameter(f"scale = {scale} m: must be > 0")
+    origin = _numbers("position", position, (3,))
+    turn = _rotation(_numbers("rotation", rotation, (3,)))
     _look_for(file)
     trimesh = _trimesh()
     try:
@@ -66,7 +70,7 @@ def read_mesh(
     if not faces.size:
         raise InvalidParameter(f"{file}: holds no triangles")
     try:
-        mesh = Mesh(origin + scale * vertices @ turn.T, faces, *([] if color is None else [color]))
+        mesh = Mesh(origin + unit * vertices @ turn.T, faces, *([] if color is None else [color]))
     except InvalidParameter as error:
         raise InvalidParameter(f"{file}: {error}") from error
     welded = trimesh.Trimesh(vertices, faces)  # the triangles of an STL file share no vertex
@@ -122,11 +126,15 @@ def read_environment_map(file: str | Path) -> NDArray[np.float32]:
     return np.ascontiguousarray(light[..., channels], np.float32)
 
 
-def _vector(name: str, values: Sequence[float]) -> NDArray[np.float64]:
-    vector = np.asarray(values, float)
-    if vector.shape != (3,) or not np.isfinite(vector).all():
-        raise InvalidParameter(f"{name} = {values}: must be three finite numbers")
-    return vector
+def _numbers(name: str, value: Any, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    try:
+        numbers = np.asarray(value, float)
+    except (TypeError, ValueError) as error:
+        raise WrongType(f"{name} = {value!r}: must be real numbers") from error
+    if numbers.shape != shape or not np.isfinite(numbers).all():
+        rule = "three finite numbers" if shape else "a finite number"
+        raise InvalidParameter(f"{name} = {value}: must be {rule}")
+    return numbers
 
 
 def _rotation(degrees: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -101,8 +101,8 @@ def test_a_closed_mesh_turned_inside_out_is_refused_and_an_open_one_is_not(tmp_p
 @pytest.mark.parametrize(
     ("placing", "match"),
     [
-        ({"scale": 0}, "scale = 0 m: must be finite and > 0"),
-        ({"scale": np.nan}, "scale = nan m: must be finite"),
+        ({"scale": 0}, "scale = 0 m: must be > 0"),
+        ({"scale": np.nan}, "scale = nan: must be a finite number"),
         ({"position": (0, 0)}, r"position = \(0, 0\): must be three finite numbers"),
         ({"rotation": (0, 0, np.inf)}, "rotation = .*: must be three finite numbers"),
         ({"color": (0, 0, 2)}, r"Mesh\.color = \(0, 0, 2\)"),
@@ -112,6 +112,13 @@ def test_an_impossible_place_is_refused(tmp_path, placing, match):
     write_obj(tmp_path / "shape.obj")
     with pytest.raises(errors.InvalidParameter, match=match):
         pbf.read_mesh(tmp_path / "shape.obj", **placing)
+
+
+def test_a_place_that_is_no_number_is_refused(tmp_path):
+    write_obj(tmp_path / "shape.obj")
+    for placing in ({"scale": "large"}, {"position": {}}, {"rotation": "north"}):
+        with pytest.raises(errors.WrongType, match="must be real numbers"):
+            pbf.read_mesh(tmp_path / "shape.obj", **placing)
 
 
 def write_light(path, light, kind="float", channels=("R", "G", "B")):
