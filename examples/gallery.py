@@ -97,7 +97,7 @@ def crown() -> Image:
 def collision() -> Image:
     """Show two drops that have met off center, without gravity."""
     scene = pbf.Scene.load(SCENES / "collision.toml")
-    return draw(scene, state_of(scene, 0.3))
+    return draw(scene, state_of(scene, 0.15))
 
 
 def speed() -> Image:
@@ -164,7 +164,7 @@ def taylor_green() -> Image:
 def drops() -> Image:
     """Show single drops of the double dam break from near."""
     scene = pbf.Scene.builtin("double_dam_break", spacing=0.015)
-    camera = {"eye": [1.25, 0.95, 1.35], "target": [1.0, 0.72, 0.25], "fov_y": 30.0}
+    camera = {"eye": [1.8, 1.0, 1.15], "target": [1.5, 0.86, 0.25], "fov_y": 22.0}
     return draw(scene.replace(camera=camera), state_of(scene, 0.7))
 
 
@@ -243,7 +243,8 @@ def tube(axis: npt.NDArray[np.float64], radius: float, color: tuple[float, ...])
 
 def studio() -> Image:
     """Show two drops as they meet, in the light of a studio: softboxes and a small bright sun."""
-    scene = pbf.Scene.load(SCENES / "collision.toml").replace(render=STUDIO, fov_y=26.0)
+    scene = pbf.Scene.load(SCENES / "collision.toml").replace(render=STUDIO)
+    scene = scene.replace(camera={"eye": [0.75, 0.35, 1.2], "fov_y": 26.0})
     return draw(scene, state_of(scene, 0.1), light=softboxes())
 
 
