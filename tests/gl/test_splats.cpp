@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 using namespace pbf;
 using namespace pbf::raster;
@@ -21,11 +22,15 @@ struct Drawn {
   bool operator==(const Drawn&) const = default;
 };
 
-Drawn draw(const Records& particles, const RenderParams& params, int threads) {
+Camera ahead() {
   Camera camera;
   camera.eye = {0, 0, 0};
   camera.target = {0, 0, -1};
-  const SplatView view = splat_view(frame_block(camera, kWidth, kHeight), params);
+  return camera;
+}
+
+Drawn draw(const Records& particles, const RenderParams& params, int threads) {
+  const SplatView view = splat_view(frame_block(ahead(), kWidth, kHeight), params);
   Splats splats;
   Map depth(kWidth, kHeight, kNothing), thickness(kWidth, kHeight, 0);
   splats.bin(particles.data(), particles.size(), view, threads);
@@ -72,6 +77,35 @@ TEST_CASE("splats: every instruction set draws the same bits") {
     CHECK(draw(particles, params, 2) == expected);
   }
   unsetenv("PBF_ISA");
+}
+
+TEST_CASE("splats: tiles are those that any of the sprites covers") {
+  const FrameBlock frame = frame_block(ahead(), kWidth, kHeight);
+  const Records particles = cloud(60);
+  Points positions(3, particles.size());
+  Tiles expected(kWidth, kHeight), marked(kWidth, kHeight);
+  for (Index i = 0; i < particles.size(); ++i) {
+    const Record& p = particles[i];
+    positions.col(i) << p.x, p.y, p.z;
+    Records one(1);
+    one[0] = {p.x, p.y, p.z, 1};
+    Splats splats;
+    splats.bin(one.data(), 1, splat_view(frame, {.radius = 0.06F}), 1);
+    for (const Tile& tile : splats.tiles().list()) {
+      expected.mark(tile.x / kTileSide, tile.y / kTileSide);
+    }
+  }
+  mark_tiles(positions, 0.06F, frame, marked);
+  const auto text = [](const Tiles& tiles) {
+    std::string corners;
+    for (const Tile& tile : tiles.list()) {
+      corners += std::to_string(tile.x) + "," + std::to_string(tile.y) + " ";
+    }
+    return corners;
+  };
+  CHECK(marked.list().size() > 5);
+  CHECK(marked.list().size() < 35);
+  CHECK(text(marked) == text(expected));
 }
 
 TEST_CASE("splats: sprites of many tiles count as small ones do") {

@@ -221,7 +221,7 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
                            encoded(params.sphere_color));
     passes_->colored.upload(positions, colors.empty() ? all_alike : colors, radius, camera.eye,
                             frame);
-    to.tiles.find(positions, camera, radius);
+    to.tiles.find(positions, frame, radius);
   });
   if (to.spheres == nullptr) to.spheres = std::make_unique<Targets::Spheres>(to);
   stage("spheres", [&] { passes_->spheres(passes_->colored, radius, to.spheres->framebuffer); });
@@ -279,7 +279,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   const Real nearest = nearest_front(pass.crowding.shallow(), params.radius, frame, 0);
   stage("upload", [&] {
     pass.sprites.upload(pass.crowding.particles());
-    to.tiles.find(positions, camera, params.radius);
+    to.tiles.find(pass.crowding.shallow(), frame, params.radius);
   });
   if (pass.thickness == nullptr) {
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth_and_thickness); });

@@ -75,6 +75,29 @@ void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads) {
   });
 }
 
+void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles) {
+  constexpr Index kMost = 1 << 10;  // positions at a time
+  const SplatKernels& kernels = splat_kernels(chosen_isa());
+  const SplatView view = splat_view(frame, {.radius = radius});
+  parallel_chunks(positions.cols(), 0, kMost, [&](Index first, Index last) {
+    const Index count = last - first;
+    std::array<Record, kMost + kMostLanes> centers;
+    std::array<TileBox, kMost + kMostLanes> boxes;
+    for (Index i = 0; i < count; ++i) {
+      const auto x = positions.col(first + i);
+      centers[i] = {x[0], x[1], x[2], 1};
+    }
+    kernels.project(centers.data(), 0, count, view, centers.data(), boxes.data());
+    for (Index i = 0; i < count; ++i) {
+      for (int row = boxes[i].first_row; row <= boxes[i].last_row; ++row) {
+        for (int column = boxes[i].first_column; column <= boxes[i].last_column; ++column) {
+          tiles.mark(column, row);
+        }
+      }
+    }
+  });
+}
+
 void Splats::bin(const Record* particles, Index n, const SplatView& view, int threads) {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   tiles_ = Tiles(static_cast<int>(std::ceil(view.width)), static_cast<int>(std::ceil(view.height)));

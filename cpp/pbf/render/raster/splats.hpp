@@ -42,4 +42,7 @@ SplatView halved(SplatView view);
 /// Adds what was drawn with half as many pixels, interpolated linearly, in the tiles of `to`.
 void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads);
 
+/// Marks the tiles that spheres of a radius [m] can reach.
+void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles);
+
 }  // namespace pbf::raster
