@@ -21,6 +21,8 @@ add_library(pbf_render STATIC
   pbf/render/colormap.cpp
   pbf/render/lettering.cpp
   pbf/render/legend.cpp
+  pbf/render/extent.cpp
+  pbf/render/full_cells.cpp
   pbf/render/crowding.cpp
   pbf/render/layer_filter.cpp
   pbf/render/sun_shadow.cpp

@@ -1,10 +1,12 @@
 /// The passes of a frame, in C++ (cpp) and as shaders (glsl): milliseconds of each, and how much
 /// work there was. The same dam break, in the same picture, of few and of many particles.
+#include "pbf/render/crowding.hpp"
 #include "pbf/render/fluid_renderer.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include "stages.hpp"
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -44,14 +46,19 @@ RenderParams params(Real spacing) {
   return params;
 }
 
-/// Pixels that sprites cover, each of its own; of full size, as most are.
-double fragments(const Cloud& of, double pixels_per_slope) {
+/// Pixels that sprites cover, each of its own; of full size, as most are. In C++ deep ones are drawn
+/// with a quarter as many.
+double fragments(const Cloud& of, const RenderParams& drawn, double pixels_per_slope, bool in_cpp) {
+  Crowding crowding;
+  crowding.find(of.positions, camera(), drawn.crowding_distance(), drawn.radius);
   const Eigen::Matrix4f view = camera().view();
-  const double r2 = std::pow(1.2 * static_cast<double>(of.spacing), 2);
+  const double r2 = std::pow(static_cast<double>(drawn.radius), 2);
   double sum = 0;
   for (Index i = 0; i < of.positions.cols(); ++i) {
-    const double z = -(view.row(2).head<3>().dot(of.positions.col(i)) + view(2, 3));
-    sum += std::numbers::pi * r2 * pixels_per_slope * pixels_per_slope / (z * z - r2);
+    const Record& p = crowding.particles()[i];
+    const double z = -(view.row(2).head<3>().dot(Vec3(p.x, p.y, p.z)) + view(2, 3));
+    const double share = in_cpp && i >= crowding.shallow().cols() ? 0.25 : 1;
+    sum += share * std::numbers::pi * r2 * pixels_per_slope * pixels_per_slope / (z * z - r2);
   }
   return sum;
 }
@@ -85,7 +92,10 @@ void draw(benchmark::State& state, SurfacePasses passes) {
   }
   const double pixels_per_slope = height / (2.0 * static_cast<double>(camera().half_height()));
   state.counters["particles"] = static_cast<double>(of.positions.cols());
-  state.counters["fragments"] = fragments(of, pixels_per_slope);
+  state.counters["fragments"] =
+      fragments(of, drawn, pixels_per_slope, passes == SurfacePasses::cpp);
+  state.counters["pixels"] =
+      static_cast<double>(std::ranges::count_if(layers.depth.data, [](float d) { return d > 0; }));
   state.counters["depth_taps"] = static_cast<double>(drawn.smoothing_iterations) *
                                  taps(layers, drawn.smoothing_radius_in_force(), pixels_per_slope);
   state.counters["thickness_taps"] =

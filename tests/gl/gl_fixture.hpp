@@ -38,7 +38,7 @@ class GlFixture {
     frame_.upload(&block_, sizeof block_);
     frame_.bind_base(0);
     // One sphere around the eye reaches every tile.
-    tiles_.find(Points(camera.eye), camera, camera.far / 2);
+    tiles_.find(Points(camera.eye), block_, camera.far / 2);
   }
   ~GlFixture() { CHECK(glGetError() == GL_NO_ERROR); }
   GlFixture(const GlFixture&) = delete;

@@ -1,40 +1,91 @@
 #include "pbf/core/isa.hpp"
 #include "pbf/render/crowding.hpp"
+#include "pbf/render/params.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <random>
+#include <set>
 
 using namespace pbf;
 
 namespace {
 
-const Vec3 kOrigin = Vec3::Zero();
+Camera camera_at(const Vec3& eye) {
+  Camera camera;
+  camera.eye = eye;
+  camera.target = eye - Vec3::UnitZ();
+  return camera;
+}
 
-Scalars crowding(const Points& positions, Real s, const Vec3& eye = kOrigin) {
+struct Found {
+  Points x;
+  Scalars c;
+  Index deep;
+};
+
+/// With sprites of half of s: those of a body hide what is deep in it.
+Found find(const Points& positions, Real s, const Camera& camera = camera_at(Vec3::Zero())) {
   Crowding result;
-  result.find(positions, eye, s);
-  Scalars c(positions.cols());
-  for (Index i = 0; i < positions.cols(); ++i) {
+  result.find(positions, camera, s, 0.5F * s);
+  const Index n = positions.cols();
+  Found found{Points(3, n), Scalars(n), result.deep()};
+  for (Index i = 0; i < n; ++i) {
     const Record& particle = result.particles()[i];
-    CHECK(Vec3(particle.x, particle.y, particle.z) == positions.col(i));
-    c[i] = particle.w;
+    found.x.col(i) << particle.x, particle.y, particle.z;
+    found.c[i] = particle.w;
   }
-  return c;
+  CHECK(result.shallow() == found.x.leftCols(n - result.deep()));
+  return found;
+}
+Scalars crowding(const Points& positions, Real s) { return find(positions, s).c; }
+
+/// The columns in an order that does not depend on theirs.
+std::vector<std::array<Real, 3>> sorted(const Points& x) {
+  std::vector<std::array<Real, 3>> columns;
+  for (Index i = 0; i < x.cols(); ++i) columns.push_back({x(0, i), x(1, i), x(2, i)});
+  std::ranges::sort(columns);
+  return columns;
+}
+
+/// Whether each is in a full cell, by the definition.
+std::vector<bool> is_full(const Points& x, double side) {
+  using Cell = std::array<int, 3>;
+  const auto cell_of = [&](Index i) {
+    Cell cell;
+    for (int k = 0; k < 3; ++k) cell[k] = static_cast<int>(std::floor(double(x(k, i)) / side));
+    return cell;
+  };
+  std::set<Cell> cells;
+  for (Index i = 0; i < x.cols(); ++i) cells.insert(cell_of(i));
+  std::vector<bool> full;
+  for (Index i = 0; i < x.cols(); ++i) {
+    const Cell at = cell_of(i);
+    int held = 0;
+    for (int k = 0; k < 27; ++k) {
+      held += cells.contains({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1}) ? 1 : 0;
+    }
+    full.push_back(held == 27);
+  }
+  return full;
 }
 
 /// By the formula, over all pairs.
-Scalars brute_force(const Points& x, double s) {
+Scalars brute_force(const Points& x, Real s) {
   const auto u = [&](Index i, Index j) {
     return 1 - (x.col(i).cast<double>() - x.col(j).cast<double>()).squaredNorm() / (s * s);
   };
+  const std::vector<bool> full = is_full(x, 0.6F * s);
   Eigen::ArrayXd m = Eigen::ArrayXd::Zero(x.cols());
   for (Index i = 0; i < x.cols(); ++i) {
     for (Index j = 0; j < x.cols(); ++j) {
       if (j != i && u(i, j) > 0) m[i] += u(i, j) * u(i, j);
     }
+    if (full[static_cast<std::size_t>(i)]) m[i] = 9;
   }
   m = m.min(9);
   Scalars c(x.cols());
@@ -65,11 +116,66 @@ TEST_CASE("crowding: the formula, for a cloud of drops, groups and bodies") {
     const Real width = i < 500 ? 1.5F : i < 1000 ? 4.0F : 12.0F;
     x.col(i) = width * Vec3(spread(random), spread(random), spread(random)) + Vec3(30, -20, 5);
   }
-  const Scalars c = crowding(x, 2.4F, {25, -20, 0});
-  const Scalars expected = brute_force(x, 2.4);
-  CHECK((c - expected).abs().maxCoeff() < 1e-4F);
+  const Found found = find(x, 2.4F, camera_at({25, -20, 0}));
+  const Scalars expected = brute_force(found.x, 2.4F);
+  CHECK(sorted(found.x) == sorted(x));
+  CHECK((found.c - expected).abs().maxCoeff() < 1e-4F);
   CHECK((expected == 1).count() > 400);
   CHECK((expected < 0.5F).count() > 200);
+}
+
+TEST_CASE("crowding: of a body that shakes, a million of which would be too many for pairs") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<Real> shake(-0.2F, 0.2F);
+  Points x = lattice(16, 14, 15);
+  for (Real& coordinate : x.reshaped()) coordinate += shake(random);
+  const Found found = find(x, 2.4F, camera_at({7, 7, 40}));
+  CHECK(sorted(found.x) == sorted(x));
+  CHECK(found.deep > 100);
+  CHECK((found.c - brute_force(found.x, 2.4F)).abs().maxCoeff() < 1e-4F);
+  // Deep ones come last, and nothing around them is missing.
+  const Points deep = found.x.rightCols(found.deep);
+  CHECK(deep.minCoeff() > 2);
+  CHECK((deep.rowwise().maxCoeff().array() < Eigen::Array3f(13, 11, 12)).all());
+  CHECK((found.c.tail(found.deep) == 1).all());
+}
+
+TEST_CASE("crowding: nothing is hidden from within, by the near plane, or by small sprites") {
+  const Points x = lattice(20, 20, 20);
+  const auto deep = [&](const Camera& camera, Real radius = 1.2F) {
+    Crowding crowding;
+    crowding.find(x, camera, 2.4F, radius);
+    return crowding.deep();
+  };
+  Camera camera = camera_at({10, 10, 40});
+  const Index from_outside = deep(camera);
+  CHECK(from_outside > 1000);
+  CHECK(deep(camera, 0.9F) == 0);
+  camera.near = 30;  // through the middle
+  CHECK(deep(camera) < from_outside / 2);
+  CHECK(deep(camera) > 0);
+  CHECK(deep(camera_at({10, 10, 10})) == deep(camera));
+}
+
+TEST_CASE("crowding: a body is one for sprites of 0.8 to 1.5 particle distances") {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<Real> shake(-0.2F, 0.2F);
+  Points x = lattice(9, 9, 9);
+  for (Real& coordinate : x.reshaped()) coordinate += shake(random);
+  x *= 0.02F;
+  for (const Real spacings : {0.8F, 1.0F, 1.2F, 1.5F}) {
+    CAPTURE(spacings);
+    RenderParams params;
+    params.radius = spacings * 0.02F;
+    params.drop_radius = 0.0124F;
+    params.particle_volume = 8e-6F;
+    const Found found = find(x, params.crowding_distance());
+    for (Index i = 0; i < x.cols(); ++i) {
+      const auto inner = (found.x.col(i).array() - 0.08F).abs() < 0.05F;
+      if (inner.all()) CHECK(found.c[i] == 1);
+    }
+    CHECK(found.c.minCoeff() > 0.8F);  // a corner
+  }
 }
 
 TEST_CASE("crowding: 0 alone, 1 everywhere in a body, between them in small groups") {
@@ -103,7 +209,7 @@ TEST_CASE("crowding: the same bits for any number of threads and every instructi
   }
   const auto found = [&](int threads) {
     Crowding crowding;
-    crowding.find(x, kOrigin, 2.4F, threads);
+    crowding.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, threads);
     std::vector<Real> c;
     for (Index i = 0; i < x.cols(); ++i) c.push_back(crowding.particles()[i].w);
     return c;

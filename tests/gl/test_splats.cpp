@@ -1,11 +1,14 @@
 #include "pbf/core/isa.hpp"
 #include "pbf/render/raster/splats.hpp"
+#include "pbf/render/raster/surface_maps.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 using namespace pbf;
 using namespace pbf::raster;
@@ -19,15 +22,19 @@ struct Drawn {
   bool operator==(const Drawn&) const = default;
 };
 
-Drawn draw(const Records& particles, const RenderParams& params, int threads) {
+Camera ahead() {
   Camera camera;
   camera.eye = {0, 0, 0};
   camera.target = {0, 0, -1};
-  const SplatView view = splat_view(frame_block(camera, kWidth, kHeight), params);
+  return camera;
+}
+
+Drawn draw(const Records& particles, const RenderParams& params, int threads) {
+  const SplatView view = splat_view(frame_block(ahead(), kWidth, kHeight), params);
   Splats splats;
   Map depth(kWidth, kHeight, kNothing), thickness(kWidth, kHeight, 0);
-  splats.bin(particles, view, threads);
-  splats.draw(view, depth, thickness, threads);
+  splats.bin(particles.data(), particles.size(), view, threads);
+  splats.draw(view, &depth, thickness, threads);
   Drawn result;
   for (int y = 0; y < kHeight; ++y) {
     result.depth.insert(result.depth.end(), depth.row(y), depth.row(y) + kWidth);
@@ -72,6 +79,35 @@ TEST_CASE("splats: every instruction set draws the same bits") {
   unsetenv("PBF_ISA");
 }
 
+TEST_CASE("splats: tiles are those that any of the sprites covers") {
+  const FrameBlock frame = frame_block(ahead(), kWidth, kHeight);
+  const Records particles = cloud(60);
+  Points positions(3, particles.size());
+  Tiles expected(kWidth, kHeight), marked(kWidth, kHeight);
+  for (Index i = 0; i < particles.size(); ++i) {
+    const Record& p = particles[i];
+    positions.col(i) << p.x, p.y, p.z;
+    Records one(1);
+    one[0] = {p.x, p.y, p.z, 1};
+    Splats splats;
+    splats.bin(one.data(), 1, splat_view(frame, {.radius = 0.06F}), 1);
+    for (const Tile& tile : splats.tiles().list()) {
+      expected.mark(tile.x / kTileSide, tile.y / kTileSide);
+    }
+  }
+  mark_tiles(positions, 0.06F, frame, marked);
+  const auto text = [](const Tiles& tiles) {
+    std::string corners;
+    for (const Tile& tile : tiles.list()) {
+      corners += std::to_string(tile.x) + "," + std::to_string(tile.y) + " ";
+    }
+    return corners;
+  };
+  CHECK(marked.list().size() > 5);
+  CHECK(marked.list().size() < 35);
+  CHECK(text(marked) == text(expected));
+}
+
 TEST_CASE("splats: sprites of many tiles count as small ones do") {
   // As many tiles as make a sprite large, or one less: the sum of both is that of drawing each.
   RenderParams params;
@@ -85,5 +121,50 @@ TEST_CASE("splats: sprites of many tiles count as small ones do") {
   for (std::size_t k = 0; k < one.depth.size(); ++k) {
     CHECK(together.depth[k] == std::max(one.depth[k], other.depth[k]));
     CHECK(together.thickness[k] == one.thickness[k] + other.thickness[k]);
+  }
+}
+
+TEST_CASE("splats: with half as many pixels deep ones are as thick, and none of them is missed") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> shake(-0.2F, 0.2F);
+  constexpr Index kSide = 24;
+  Points x(3, kSide * kSide * kSide);
+  for (Index i = 0; i < x.cols(); ++i) {
+    const Eigen::Vector3<Index> at(i % kSide, i / kSide % kSide, i / (kSide * kSide));
+    x.col(i) = 0.04F * (at.cast<Real>() + Vec3(shake(random), shake(random), shake(random)));
+  }
+  RenderParams params;
+  params.radius = params.drop_radius.emplace(0.048F);
+  params.particle_volume = 0.04F * 0.04F * 0.04F;
+  Camera outside, inside, cut;
+  outside.eye = {1.8F, 1.2F, 1.9F};
+  outside.target = inside.target = cut.target = {0.5F, 0.4F, 0.4F};
+  inside.eye = {0.45F, 0.55F, 0.7F};
+  cut.eye = {0.5F, 0.4F, 2};
+  cut.near = 1.5F;
+  cut.orthographic = true;
+  for (const Camera& camera : {outside, inside, cut}) {
+    CAPTURE(camera.eye.transpose());
+    SurfaceMaps all(kWidth, kHeight), split(kWidth, kHeight);
+    all.find(x, camera, params, true);
+    split.find(x, camera, params, false);
+    double difference = 0, sum = 0;
+    float largest = 0;
+    int covered = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int k = 0; k < kWidth; ++k) {
+        const float expected = all.thickness_smooth().row(y)[k];
+        const float error = std::abs(split.thickness_smooth().row(y)[k] - expected);
+        if (!(all.depth().row(y)[k] > kNothing)) continue;
+        CHECK(split.depth().row(y)[k] == all.depth().row(y)[k]);
+        ++covered;
+        difference += static_cast<double>(error);
+        sum += static_cast<double>(expected);
+        largest = std::max(largest, error);
+      }
+    }
+    CHECK(covered > 3000);
+    CHECK(difference < 0.002 * sum);
+    CHECK(largest < 0.01F);  // a quarter of a particle distance
   }
 }

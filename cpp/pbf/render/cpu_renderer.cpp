@@ -26,7 +26,7 @@ Layers CpuRenderer::layers(const PointsView& positions,
   validate(camera);
   validate(params);
   require_finite(positions);
-  maps_.find(positions, camera, params);
+  maps_.find(positions, camera, params, true);
   report_ = {.particles = positions.cols(), .milliseconds = {}};
   if (timed_) report_.milliseconds = maps_.milliseconds();
   Layers layers{.depth = raster::depth_pixels(maps_.depth(), camera),

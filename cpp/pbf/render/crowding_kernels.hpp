@@ -8,6 +8,11 @@ namespace pbf {
 /// The inner loops of Crowding, for one instruction set: over the candidates j around a particle at
 /// x, which is one of them. Sums are made in the same order with every instruction set.
 struct CrowdingKernels {
+  /// Whether a particle with flags[j] set is so close that this one is as crowded.
+  bool (*is_beside)(const Candidates& candidates,
+                    const Record& x,
+                    float inverse_s2,
+                    const std::uint8_t* flags);
   /// m of the particle, without itself; writes the u_j.
   float (*sum)(const Candidates& candidates, const Record& x, float inverse_s2, float* u);
   /// Sets flags[j] where u_j is so large that j is as crowded as a particle with m = 9.

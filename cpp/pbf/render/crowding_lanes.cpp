@@ -25,6 +25,21 @@ PBF_INLINE void set(std::uint8_t* flag) {
   __atomic_store_n(flag, std::uint8_t{1}, __ATOMIC_RELAXED);
 }
 
+bool is_beside(const Candidates& candidates,
+               const Record& particle,
+               float inverse_s2,
+               const std::uint8_t* flags) {
+  const Candidates j = candidates;
+  const Vec3Lanes x{particle.x, particle.y, particle.z};
+  bool found = false;
+  for (std::uint32_t k = 0; k < j.count && !found; k += kLanes) {
+    for_each_lane(Lanes(1.0F) <= 1.5F * u_of(j, k, x, inverse_s2),
+                  [&](std::uint32_t lane)
+                      PBF_LAMBDA_INLINE { found |= flags[j.entry[k + lane] / 4] != 0; });
+  }
+  return found;
+}
+
 float sum(const Candidates& candidates, const Record& particle, float inverse_s2, float* u) {
   const Candidates j = candidates;  // as numbers: no store changes them
   const Vec3Lanes x{particle.x, particle.y, particle.z};
@@ -93,7 +108,7 @@ float largest(const Candidates& candidates,
 }  // namespace
 
 const CrowdingKernels& crowding_kernels() {
-  static constexpr CrowdingKernels table{sum, mark, mark_unknown, largest};
+  static constexpr CrowdingKernels table{is_beside, sum, mark, mark_unknown, largest};
   return table;
 }
 

@@ -194,13 +194,14 @@ void FluidRenderer::stage(const char* name, F&& pass) {
 Surface FluidRenderer::draw(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params,
-                            const Colors& colors) {
+                            const Colors& colors,
+                            bool exact) {
   report_ = {.particles = positions.cols(), .milliseconds = {}};
   const FrameBlock frame = frame_block(camera, targets_->width, targets_->height);
   passes_->frame.upload(&frame, sizeof frame);
   passes_->frame.bind_base(0);
   if (params.style == Style::spheres) return draw_spheres(positions, camera, frame, params, colors);
-  Surface surface = maps_ ? draw_in_cpp(positions, camera, params)
+  Surface surface = maps_ ? draw_in_cpp(positions, camera, params, exact)
                           : draw_in_glsl(positions, camera, frame, params);
   if (!colors.empty()) {
     surface.tint = &draw_tint(positions, camera, frame, surface.depth, params, colors);
@@ -220,7 +221,7 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
                            encoded(params.sphere_color));
     passes_->colored.upload(positions, colors.empty() ? all_alike : colors, radius, camera.eye,
                             frame);
-    to.tiles.find(positions, camera, radius);
+    to.tiles.find(positions, frame, radius);
   });
   if (to.spheres == nullptr) to.spheres = std::make_unique<Targets::Spheres>(to);
   stage("spheres", [&] { passes_->spheres(passes_->colored, radius, to.spheres->framebuffer); });
@@ -248,9 +249,10 @@ const Texture& FluidRenderer::draw_tint(const PointsView& positions,
 
 Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
                                    const Camera& camera,
-                                   const RenderParams& params) {
+                                   const RenderParams& params,
+                                   bool exact) {
   Targets& to = *targets_;
-  maps_->find(positions, camera, params);
+  maps_->find(positions, camera, params, exact);
   if (timed_) report_.milliseconds = maps_->milliseconds();
   stage("upload", [&] {
     upload(maps_->depth(), to.depth.texture);
@@ -272,11 +274,12 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                                     const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
-  const Real nearest = nearest_front(positions, params.radius, frame, 0);
-  stage("crowding", [&] { pass.crowding.find(positions, camera.eye, params.crowding_distance()); });
+  stage("crowding",
+        [&] { pass.crowding.find(positions, camera, params.crowding_distance(), params.radius); });
+  const Real nearest = nearest_front(pass.crowding.shallow(), params.radius, frame, 0);
   stage("upload", [&] {
     pass.sprites.upload(pass.crowding.particles());
-    to.tiles.find(positions, camera, params.radius);
+    to.tiles.find(pass.crowding.shallow(), frame, params.radius);
   });
   if (pass.thickness == nullptr) {
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth_and_thickness); });
@@ -339,7 +342,7 @@ Image FluidRenderer::render(const PointsView& positions,
   prepare_targets(factor);
   Targets& to = *targets_;
   const Surface surface =
-      draw(positions, camera, params, colors_of(values, params.colormap, range));
+      draw(positions, camera, params, colors_of(values, params.colormap, range), false);
   SunShadow shadow;
   stage("shadow", [&] {
     shadow = sun_shadow(positions, for_shadow(params, surface.tint != nullptr), meshes);
@@ -400,7 +403,7 @@ Layers FluidRenderer::layers(const PointsView& positions,
   require_finite(positions);
   const auto current = context_.make_current();
   prepare_targets(1);
-  const Surface surface = draw(positions, camera, params, {});
+  const Surface surface = draw(positions, camera, params, {}, true);
   Layers layers;
   stage("read_back", [&] {
     if (params.style == Style::spheres) {

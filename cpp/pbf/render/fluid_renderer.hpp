@@ -74,14 +74,16 @@ class FluidRenderer {
   Surface draw(const PointsView& positions,
                const Camera& camera,
                const RenderParams& params,
-               const Colors& colors);
+               const Colors& colors,
+               bool exact);
   Surface draw_in_glsl(const PointsView& positions,
                        const Camera& camera,
                        const FrameBlock& frame,
                        const RenderParams& params);
   Surface draw_in_cpp(const PointsView& positions,
                       const Camera& camera,
-                      const RenderParams& params);
+                      const RenderParams& params,
+                      bool exact);
   Surface draw_spheres(const PointsView& positions,
                        const Camera& camera,
                        const FrameBlock& frame,

@@ -1,5 +1,6 @@
 #include "pbf/render/params.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace pbf {
@@ -7,6 +8,11 @@ namespace pbf {
 Real RenderParams::volume_in_force() const {
   const Real sphere = 4.0F / 3.0F * std::numbers::pi_v<Real> * radius * radius * radius;
   return particle_volume.value_or(sphere);
+}
+
+Real RenderParams::crowding_distance() const {
+  if (!drop_radius) return 0;
+  return 2.4F * (particle_volume ? std::cbrt(*particle_volume) : radius);
 }
 
 void RenderParams::check_together(Faults& faults) const {

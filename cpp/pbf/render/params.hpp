@@ -88,8 +88,8 @@ struct RenderParams {
 
   // What the optional fields stand for when not given.
   [[nodiscard]] Real drop_radius_in_force() const { return drop_radius.value_or(radius); }
-  /// How far drops and bodies are told apart by [m]; 0: they are drawn alike.
-  [[nodiscard]] Real crowding_distance() const { return drop_radius ? 2 * radius : 0; }
+  /// How far drops and bodies are told apart by, 2.4 particle distances [m]; 0: drawn alike.
+  [[nodiscard]] Real crowding_distance() const;
   [[nodiscard]] Real volume_in_force() const;  ///< [m³]
   [[nodiscard]] Real sphere_radius_in_force() const { return sphere_radius.value_or(radius / 2); }
   [[nodiscard]] Vec3 tint_absorption() const {
@@ -133,7 +133,8 @@ struct RenderParams {
             "drop_radius", &P::drop_radius, "m", inside(1e-7, 1e6),
             "Radius of the sprite of a particle that is alone; at most radius, which it is if not "
             "given. With 0.62 times the particle distance a drop has its particle's volume. Small "
-            "groups of particles lie between. The depth filter leaves drops round."},
+            "groups of particles lie between, told by what is within 2.4 particle distances: cube "
+            "roots of particle_volume, without it radii. The depth filter leaves drops round."},
         Field{"particle_volume", &P::particle_volume, "m^3", inside(0, 1e18),
               "Volume that a particle adds to the thickness, the sprite's own if not given. With "
               "the cube of "

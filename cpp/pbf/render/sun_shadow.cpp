@@ -1,6 +1,7 @@
 #include "pbf/render/sun_shadow.hpp"
 
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/extent.hpp"
 
 #include <Eigen/Geometry>
 
@@ -14,48 +15,20 @@ constexpr int kThreads = 0;  // all there are
 /// Width of the Gaussian and of the margin around the fluid [texels].
 constexpr Real kDeviation = 2;
 constexpr int kReach = 6;
-/// Particles farther out than this, in root mean squares, cast none: one that flew off must not
-/// take the grid with it.
-constexpr double kFarthest = 6;
+/// Most parts that the particles are added up in, each of this many or more.
+constexpr Index kMostParts = 8;
+constexpr Index kLeastPart = 1 << 14;
 
 using Grid = std::vector<Real>;
 
-struct Frame {
-  Vec3 x, y;  // unit vectors across the sun's rays
-};
-
-Frame across(const Vec3& sun) {
+/// Two unit vectors across the sun's rays, and towards the sun: the rows.
+Eigen::Matrix<Real, 3, 3> frame_of(const Vec3& sun) {
   const Vec3 other = std::abs(sun.x()) < 0.7F ? Vec3::UnitX() : Vec3::UnitZ();
-  const Vec3 x = other.cross(sun).normalized();
-  return {x, sun.cross(x)};
-}
-
-/// The part of an axis that the grid covers [m].
-struct Extent {
-  double middle = 0, half = 0;
-};
-
-/// @param corners  of meshes: they belong to it as far as they are near the fluid, if there is any
-Extent extent(const PointsView& positions, const Points& corners, const Vec3& axis) {
-  const PointsView body = positions.cols() > 0 ? positions : PointsView(corners);
-  const auto at = [&](Index i) { return static_cast<double>(axis.dot(body.col(i))); };
-  const auto n = static_cast<double>(body.cols());
-  const double mean = parallel_sum(body.cols(), kThreads, at) / n;
-  const double variance = parallel_sum(body.cols(), kThreads,
-                                       [&](Index i) { return (at(i) - mean) * (at(i) - mean); }) /
-                          n;
-  const double limit = kFarthest * std::sqrt(variance);
-  double low = kInfinity, high = -kInfinity;
-  const auto include = [&](double p) {
-    if (std::abs(p - mean) > limit) return;
-    low = std::min(low, p);
-    high = std::max(high, p);
-  };
-  for (Index i = 0; i < body.cols(); ++i) include(at(i));
-  for (Index i = 0; i < corners.cols(); ++i) {
-    include(static_cast<double>(axis.dot(corners.col(i))));
-  }
-  return {0.5 * (low + high), 0.5 * (high - low)};
+  Eigen::Matrix<Real, 3, 3> frame;
+  frame.row(0) = other.cross(sun).normalized();
+  frame.row(1) = sun.cross(frame.row(0));
+  frame.row(2) = sun;
+  return frame;
 }
 
 Points corners_of(const Meshes& meshes) {
@@ -72,26 +45,41 @@ Points corners_of(const Meshes& meshes) {
 
 /// Each volume goes to the four texels around it, shared so that its center stays where it is.
 Grid columns(const PointsView& positions, const SunShadow& map, Real volume, Real texel) {
-  Grid grid(static_cast<std::size_t>(map.width) * map.height);
+  const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
   const Real t = volume / (texel * texel);
   const auto w = static_cast<Real>(map.width);
   const auto h = static_cast<Real>(map.height);
-  for (Index i = 0; i < positions.cols(); ++i) {
-    const Vec3 p = positions.col(i) - map.center;
-    const Real u = (map.x.dot(p) + 0.5F) * w - 0.5F;
-    const Real v = (map.y.dot(p) + 0.5F) * h - 0.5F;
-    if (!(u >= 0 && v >= 0 && u < w - 1 && v < h - 1)) continue;
-    const int column = static_cast<int>(u);
-    const int row = static_cast<int>(v);
-    const Real right = u - static_cast<Real>(column);
-    const Real up = v - static_cast<Real>(row);
-    Real* at = grid.data() + static_cast<std::size_t>(row) * map.width + column;
-    at[0] += t * (1 - right) * (1 - up);
-    at[1] += t * right * (1 - up);
-    at[map.width] += t * (1 - right) * up;
-    at[map.width + 1] += t * right * up;
-  }
-  return grid;
+  // A part has a grid of its own, and how many there are does not depend on the threads.
+  const Index n = positions.cols();
+  const Index parts = std::clamp<Index>(n / kLeastPart, 1, kMostParts);
+  const Index part = std::max<Index>((n + parts - 1) / parts, 1);
+  std::vector<Grid> grids(static_cast<std::size_t>(parts));
+  parallel_chunks(n, kThreads, part, [&](Index first, Index last) {
+    Grid& grid = grids[static_cast<std::size_t>(first / part)];
+    grid.resize(size);
+    for (Index i = first; i < last; ++i) {
+      const Vec3 p = positions.col(i) - map.center;
+      const Real u = (map.x.dot(p) + 0.5F) * w - 0.5F;
+      const Real v = (map.y.dot(p) + 0.5F) * h - 0.5F;
+      if (!(u >= 0 && v >= 0 && u < w - 1 && v < h - 1)) continue;
+      const int column = static_cast<int>(u);
+      const int row = static_cast<int>(v);
+      const Real right = u - static_cast<Real>(column);
+      const Real up = v - static_cast<Real>(row);
+      Real* at = grid.data() + static_cast<std::size_t>(row) * map.width + column;
+      at[0] += t * (1 - right) * (1 - up);
+      at[1] += t * right * (1 - up);
+      at[map.width] += t * (1 - right) * up;
+      at[map.width + 1] += t * right * up;
+    }
+  });
+  Grid sum(size);
+  parallel_for(static_cast<Index>(size), kThreads, [&](Index k) {
+    for (const Grid& grid : grids) {
+      if (!grid.empty()) sum[static_cast<std::size_t>(k)] += grid[static_cast<std::size_t>(k)];
+    }
+  });
+  return sum;
 }
 
 /// 1 where the middle of a texel is behind a triangle; 0 in the margin.
@@ -176,20 +164,24 @@ SunShadow sun_shadow(const PointsView& positions,
   if (sun.dot(params.up.normalized()) <= 0) return map;
   const Points corners = corners_of(meshes);
   if (positions.cols() == 0 && corners.cols() == 0) return map;
-  const Frame frame = across(sun);
-  const Extent along_x = extent(positions, corners, frame.x);
-  const Extent along_y = extent(positions, corners, frame.y);
+  const Eigen::Matrix<Real, 3, 3> frame = frame_of(sun);
+  // Meshes belong to it as far as they are near the fluid, if there is any.
+  Extent body = extent(positions.cols() > 0 ? positions : PointsView(corners), frame, kThreads);
+  for (Index i = 0; i < corners.cols(); ++i) {
+    body.include((frame * corners.col(i)).cast<double>().array());
+  }
   // The Gaussian reaches three deviations, volumes go half a texel farther; then a white border.
   constexpr int kMargin = 2 * kReach + 2;
-  const double widest = 2 * std::max(along_x.half, along_y.half);
-  const double texel = std::max(static_cast<double>(params.radius / kDeviation),
-                                widest / (SunShadow::kMostTexels - 2 * kMargin));
-  map.width = static_cast<int>(std::ceil(2 * along_x.half / texel)) + 2 * kMargin;
-  map.height = static_cast<int>(std::ceil(2 * along_y.half / texel)) + 2 * kMargin;
-  map.center = (along_x.middle * frame.x.cast<double>() + along_y.middle * frame.y.cast<double>())
-                   .cast<Real>();
-  map.x = frame.x / static_cast<Real>(texel * map.width);
-  map.y = frame.y / static_cast<Real>(texel * map.height);
+  const Eigen::Array3d size = body.upper - body.lower;
+  const double texel =
+      std::max(static_cast<double>(params.radius / kDeviation),
+               std::max(size[0], size[1]) / (SunShadow::kMostTexels - 2 * kMargin));
+  map.width = static_cast<int>(std::ceil(size[0] / texel)) + 2 * kMargin;
+  map.height = static_cast<int>(std::ceil(size[1] / texel)) + 2 * kMargin;
+  const Eigen::Vector3d middle = 0.5 * (body.lower + body.upper);
+  map.center = (frame.topRows<2>().transpose().cast<double>() * middle.head<2>()).cast<Real>();
+  map.x = frame.row(0) / static_cast<Real>(texel * map.width);
+  map.y = frame.row(1) / static_cast<Real>(texel * map.height);
   Grid t = columns(positions, map, params.volume_in_force(), static_cast<Real>(texel));
   t = blurred(blurred(t, map, 1), map, map.width);
   Grid cover = covered(meshes, map);

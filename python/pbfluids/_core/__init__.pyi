@@ -704,7 +704,7 @@ class RenderParams:
     @property
     def drop_radius(self) -> float | None:
         """
-        Radius of the sprite of a particle that is alone; at most radius, which it is if not given. With 0.62 times the particle distance a drop has its particle's volume. Small groups of particles lie between. The depth filter leaves drops round.
+        Radius of the sprite of a particle that is alone; at most radius, which it is if not given. With 0.62 times the particle distance a drop has its particle's volume. Small groups of particles lie between, told by what is within 2.4 particle distances: cube roots of particle_volume, without it radii. The depth filter leaves drops round.
         """
     @drop_radius.setter
     def drop_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...

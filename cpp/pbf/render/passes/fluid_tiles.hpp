@@ -2,7 +2,7 @@
 
 #include "pbf/gl/buffer.hpp"
 #include "pbf/gl/draw.hpp"
-#include "pbf/render/camera.hpp"
+#include "pbf/render/frame_block.hpp"
 #include "pbf/render/raster/tiles.hpp"
 
 namespace pbf {
@@ -16,14 +16,13 @@ class FluidTiles {
 
   FluidTiles(int width, int height);
   /// Finds the squares that spheres of a radius [m] can reach.
-  void find(const PointsView& positions, const Camera& camera, Real radius);
+  void find(const PointsView& positions, const FrameBlock& frame, Real radius);
   /// Takes over squares that were found.
   void upload(const raster::Tiles& tiles);
   /// Draws these squares of the target; for programs with glsl/fluid_tiles.vert.
   void draw(Blend blend = Blend::replace) const;
 
  private:
-  int width_, height_;
   Buffer buffer_;
   VertexArray array_;
   raster::Tiles reached_;

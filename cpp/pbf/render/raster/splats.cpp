@@ -3,6 +3,8 @@
 #include "pbf/core/parallel.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -42,11 +44,64 @@ SplatView splat_view(const FrameBlock& frame, const RenderParams& params) {
   return view;
 }
 
-void Splats::bin(const Records& particles, const SplatView& view, int threads) {
+SplatView halved(SplatView view) {
+  view.width *= 0.5F;
+  view.height *= 0.5F;
+  return view;
+}
+
+void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads) {
+  constexpr int kHalf = kTileSide / 2;
+  const std::vector<Tile> list = tiles.list();
+  parallel_chunks(std::ssize(list), threads, 1, [&](Index first, Index) {
+    const Tile tile = list[static_cast<std::size_t>(first)];
+    const int left = tile.x / 2;
+    // A pixel lies a quarter of the larger pixels' distance from the nearest of these.
+    std::array<float, kHalf + 2> column;
+    for (int y = tile.y; y < tile.y + kTileSide; ++y) {
+      const auto row = [&](int at) { return from.row(std::clamp(at, 0, from.height() - 1)); };
+      const float* near = row(y / 2);
+      const float* far = row(y % 2 == 0 ? y / 2 - 1 : y / 2 + 1);
+      for (int k = 0; k < kHalf + 2; ++k) {
+        const int x = std::clamp(left + k - 1, 0, from.width() - 1);
+        column[k] = 0.75F * near[x] + 0.25F * far[x];
+      }
+      float* out = to.row(y) + tile.x;
+      for (int k = 0; k < kHalf; ++k) {
+        out[2 * k] += 0.75F * column[k + 1] + 0.25F * column[k];
+        out[2 * k + 1] += 0.75F * column[k + 1] + 0.25F * column[k + 2];
+      }
+    }
+  });
+}
+
+void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles) {
+  constexpr Index kMost = 1 << 10;  // positions at a time
   const SplatKernels& kernels = splat_kernels(chosen_isa());
-  tiles_ = Tiles(static_cast<int>(view.width), static_cast<int>(view.height));
+  const SplatView view = splat_view(frame, {.radius = radius});
+  parallel_chunks(positions.cols(), 0, kMost, [&](Index first, Index last) {
+    const Index count = last - first;
+    std::array<Record, kMost + kMostLanes> centers;
+    std::array<TileBox, kMost + kMostLanes> boxes;
+    for (Index i = 0; i < count; ++i) {
+      const auto x = positions.col(first + i);
+      centers[i] = {x[0], x[1], x[2], 1};
+    }
+    kernels.project(centers.data(), 0, count, view, centers.data(), boxes.data());
+    for (Index i = 0; i < count; ++i) {
+      for (int row = boxes[i].first_row; row <= boxes[i].last_row; ++row) {
+        for (int column = boxes[i].first_column; column <= boxes[i].last_column; ++column) {
+          tiles.mark(column, row);
+        }
+      }
+    }
+  });
+}
+
+void Splats::bin(const Record* particles, Index n, const SplatView& view, int threads) {
+  const SplatKernels& kernels = splat_kernels(chosen_isa());
+  tiles_ = Tiles(static_cast<int>(std::ceil(view.width)), static_cast<int>(std::ceil(view.height)));
   const auto tiles = static_cast<std::size_t>(tiles_.columns()) * tiles_.rows();
-  const Index n = particles.size();
   const auto blocks = static_cast<std::size_t>((n + kBlock - 1) / kBlock);
   centers_.resize(n);
   boxes_.resize(static_cast<std::size_t>(n + kMostLanes));
@@ -61,7 +116,7 @@ void Splats::bin(const Records& particles, const SplatView& view, int threads) {
     }
   };
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
-    kernels.project(particles.data(), first, last, view, centers_.data(), boxes_.data());
+    kernels.project(particles, first, last, view, centers_.data(), boxes_.data());
     std::uint32_t* count = places_.data() + static_cast<std::size_t>(first / kBlock) * tiles;
     for (Index i = first; i < last; ++i) for_tiles(i, [&](std::size_t tile) { ++count[tile]; });
   });
@@ -106,9 +161,9 @@ void Splats::find_large() {
   }
 }
 
-void Splats::draw(const SplatView& view, Map& depth, Map& thickness, int threads) const {
+void Splats::draw(const SplatView& view, Map* depth, Map& thickness, int threads) const {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
-  depth.begin(tiles_);
+  if (depth != nullptr) depth->begin(tiles_);
   thickness.begin(tiles_);
   const std::vector<Tile> tiles = tiles_.list();
   parallel_chunks(static_cast<Index>(tiles.size()), threads, 1, [&](Index first, Index) {
@@ -116,8 +171,9 @@ void Splats::draw(const SplatView& view, Map& depth, Map& thickness, int threads
     const auto number = static_cast<std::size_t>(tile.y / kTileSide * tiles_.columns()) +
                         static_cast<std::size_t>(tile.x / kTileSide);
     const auto draw = [&](const Record* sprites, Index count) {
-      kernels.draw(sprites, count, view, tile, depth.row(tile.y) + tile.x,
-                   thickness.row(tile.y) + tile.x, depth.pitch());
+      kernels.draw(sprites, count, view, tile,
+                   depth == nullptr ? nullptr : depth->row(tile.y) + tile.x,
+                   thickness.row(tile.y) + tile.x, thickness.pitch());
     };
     const Record* own = binned_.data() + starts_[number];
     const auto count = static_cast<Index>(starts_[number + 1] - starts_[number]);

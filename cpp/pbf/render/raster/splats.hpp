@@ -15,10 +15,12 @@ namespace pbf::raster {
 class Splats {
  public:
   /// Sorts the particles, with their crowding, into tiles.
-  void bin(const Records& particles, const SplatView& view, int threads);
-  /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it
+  /// @param particles  behind the last there must be kMostLanes that can be read
+  void bin(const Record* particles, Index count, const SplatView& view, int threads);
+  /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it; if none
+  ///                   is given, only thickness is drawn
   /// @param thickness  [m]
-  void draw(const SplatView& view, Map& depth, Map& thickness, int threads) const;
+  void draw(const SplatView& view, Map* depth, Map& thickness, int threads) const;
   /// Those that sprites cover.
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
 
@@ -34,5 +36,13 @@ class Splats {
 };
 
 SplatView splat_view(const FrameBlock& frame, const RenderParams& params);
+
+/// The same with half as many pixels to a side, of a picture whose odd last pixel is half covered.
+SplatView halved(SplatView view);
+/// Adds what was drawn with half as many pixels, interpolated linearly, in the tiles of `to`.
+void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads);
+
+/// Marks the tiles that spheres of a radius [m] can reach.
+void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles);
 
 }  // namespace pbf::raster

@@ -118,7 +118,7 @@ struct Sprite {
   int left, right, bottom, top;
 };
 
-template <bool kPerspective>
+template <bool kPerspective, bool kDepth>
 void splat(const Sprite& s, const SplatView& view, Workspace& to) {
   const Lanes radius2 = s.radius * s.radius;
   const Ints level = static_cast<std::int32_t>(s.level) - Ints{};
@@ -149,6 +149,7 @@ void splat(const Sprite& s, const SplatView& view, Workspace& to) {
       const Lanes chord = kPerspective ? inside * load_lanes(to.length + at) : inside;
       store(to.thickness + at,
             load_lanes(to.thickness + at) + max(select(hit, chord, 0.0F), 0.0F) * s.share);
+      if (!kDepth) continue;
       const Mask seen = hit & (chord > Lanes(0.0F)) & (Lanes(view.near) <= front);
       const Lanes affine = kPerspective ? 1.0F / front : -front;
       const Ints bits = (reinterpret_cast<Ints>(affine.v) & ~3) | level;
@@ -158,7 +159,7 @@ void splat(const Sprite& s, const SplatView& view, Workspace& to) {
   }
 }
 
-template <bool kPerspective>
+template <bool kPerspective, bool kDepth>
 void draw_tile(const Record* centers,
                Index count,
                const SplatView& view,
@@ -178,7 +179,7 @@ void draw_tile(const Record* centers,
   for (int y = 0; y < kTileSide; ++y) {
     for (int x = 0; x < kWidth; x += kLanes) {
       const int at = y * kWidth + x;
-      store(work.depth + at, kNothing);
+      if (kDepth) store(work.depth + at, kNothing);
       store(work.thickness + at, 0.0F);
       const Lanes px = load_lanes(work.x + x), py = work.y[y];
       const Lanes length2 = px * px + py * py + 1.0F;
@@ -205,14 +206,17 @@ void draw_tile(const Record* centers,
     const Ints level = __builtin_convertvector((3.5F - 3.0F * c.w).v, Ints);
     const int lanes = count - i < kLanes ? static_cast<int>(count - i) : kLanes;
     for (int lane = 0; lane < lanes; ++lane) {
-      splat<kPerspective>({c.xyz.x.v[lane], c.xyz.y.v[lane], c.xyz.z.v[lane], radius.v[lane],
-                           share.v[lane], static_cast<std::uint32_t>(level[lane]), left[lane],
-                           right[lane], bottom[lane], top[lane]},
-                          view, work);
+      splat<kPerspective, kDepth>(
+          {c.xyz.x.v[lane], c.xyz.y.v[lane], c.xyz.z.v[lane], radius.v[lane], share.v[lane],
+           static_cast<std::uint32_t>(level[lane]), left[lane], right[lane], bottom[lane],
+           top[lane]},
+          view, work);
     }
   }
   for (int y = 0; y < kTileSide; ++y) {
-    std::memcpy(depth + y * pitch, work.depth + y * kWidth, kTileSide * sizeof(float));
+    if (kDepth) {
+      std::memcpy(depth + y * pitch, work.depth + y * kWidth, kTileSide * sizeof(float));
+    }
     std::memcpy(thickness + y * pitch, work.thickness + y * kWidth, kTileSide * sizeof(float));
   }
 }
@@ -224,7 +228,10 @@ void draw(const Record* centers,
           float* depth,
           float* thickness,
           std::ptrdiff_t pitch) {
-  const auto draw = view.perspective ? draw_tile<true> : draw_tile<false>;
+  const auto draw = depth == nullptr
+                        ? view.perspective ? draw_tile<true, false> : draw_tile<false, false>
+                    : view.perspective ? draw_tile<true, true>
+                                       : draw_tile<false, true>;
   draw(centers, count, view, tile, depth, thickness, pitch);
 }
 

@@ -10,6 +10,7 @@ namespace pbf::raster {
 SurfaceMaps::SurfaceMaps(int width, int height)
     : depth_(width, height, kNothing),
       thickness_(width, height, 0),
+      deep_thickness_((width + 1) / 2, (height + 1) / 2, 0),
       depth_between_(width, height, kNothing),
       thickness_between_(width, height, 0),
       depth_out_(width, height, kNothing),
@@ -42,17 +43,28 @@ const Map* SurfaceMaps::smoothed(const LayerFilter& filter,
 void SurfaceMaps::find(const PointsView& positions,
                        const Camera& camera,
                        const RenderParams& params,
+                       bool exact,
                        int threads) {
   const FrameBlock frame = frame_block(camera, depth_.width(), depth_.height());
   const SplatView view = splat_view(frame, params);
   milliseconds_.clear();
-  stage("crowding",
-        [&] { crowding_.find(positions, camera.eye, params.crowding_distance(), threads); });
-  stage("sphere_depth", [&] {
-    splats_.bin(crowding_.particles(), view, threads);
-    splats_.draw(view, depth_, thickness_, threads);
+  stage("crowding", [&] {
+    crowding_.find(positions, camera, params.crowding_distance(), params.radius, threads);
   });
-  const Real nearest = nearest_front(positions, params.radius, frame, threads);
+  stage("sphere_depth", [&] {
+    const Records& particles = crowding_.particles();
+    const Index deep = exact ? 0 : crowding_.deep();
+    const Index shallow = particles.size() - deep;
+    splats_.bin(particles.data(), shallow, view, threads);
+    splats_.draw(view, &depth_, thickness_, threads);
+    if (deep == 0) return;
+    // Nobody sees these, and where they are there are no edges.
+    const SplatView coarse = halved(view);
+    deep_splats_.bin(particles.data() + shallow, deep, coarse, threads);
+    deep_splats_.draw(coarse, nullptr, deep_thickness_, threads);
+    add_halved(deep_thickness_, tiles(), thickness_, threads);
+  });
+  const Real nearest = nearest_front(crowding_.shallow(), params.radius, frame, threads);
   stage("depth_smooth", [&] {
     const LayerFilter filter = depth_filter(params);
     const int iterations = params.smoothing_iterations;

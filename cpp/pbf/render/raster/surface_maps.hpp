@@ -19,10 +19,13 @@ class SurfaceMaps {
  public:
   SurfaceMaps(int width, int height);
   /// @param positions  finite [m]
+  /// @param exact      if not, what lies deep in a body adds to the thickness with half as many
+  ///                   pixels to a side, which no picture shows
   /// @param threads    0: all there are; the maps have the same bits with any
   void find(const PointsView& positions,
             const Camera& camera,
             const RenderParams& params,
+            bool exact,
             int threads = 0);
 
   /// Where the maps below can hold fluid.
@@ -49,8 +52,9 @@ class SurfaceMaps {
                       int threads);
 
   Crowding crowding_;
-  Splats splats_;
+  Splats splats_, deep_splats_;
   Map depth_, thickness_;
+  Map deep_thickness_;  // with half as many pixels to a side
   Map depth_between_, thickness_between_;
   Map depth_out_, thickness_out_;
   Map depth_third_;  // of curvature flow

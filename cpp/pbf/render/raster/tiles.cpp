@@ -12,7 +12,8 @@ Tiles::Tiles(int width, int height)
 void Tiles::clear() { std::fill(marks_.begin(), marks_.end(), std::uint8_t{0}); }
 
 void Tiles::mark(int column, int row) {
-  marks_[static_cast<std::size_t>(row) * columns_ + column] = 1;
+  std::uint8_t& mark = marks_[static_cast<std::size_t>(row) * columns_ + column];
+  __atomic_store_n(&mark, std::uint8_t{1}, __ATOMIC_RELAXED);
 }
 
 std::vector<Tile> Tiles::list() const {

@@ -20,7 +20,7 @@ class Tiles {
  public:
   Tiles(int width, int height);
   void clear();
-  /// Adds a square; again is harmless.
+  /// Adds a square; again is harmless, and so are several threads.
   void mark(int column, int row);
 
   [[nodiscard]] int columns() const { return columns_; }
