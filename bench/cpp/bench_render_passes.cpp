@@ -46,8 +46,8 @@ RenderParams params(Real spacing) {
   return params;
 }
 
-/// Pixels that sprites cover, each of its own; of full size, as most are. In C++ deep ones are drawn
-/// with a quarter as many.
+/// Pixels that sprites cover, each of its own; of full size, as most are. In C++ deep ones cover a
+/// quarter as many.
 double fragments(const Cloud& of, const RenderParams& drawn, double pixels_per_slope, bool in_cpp) {
   Crowding crowding;
   crowding.find(of.positions, camera(), drawn.crowding_distance(), drawn.radius);

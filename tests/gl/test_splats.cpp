@@ -145,9 +145,10 @@ TEST_CASE("splats: with half as many pixels deep ones are as thick, and none of 
   cut.orthographic = true;
   for (const Camera& camera : {outside, inside, cut}) {
     CAPTURE(camera.eye.transpose());
-    SurfaceMaps all(kWidth, kHeight), split(kWidth, kHeight);
+    SurfaceMaps all(kWidth, kHeight), split(kWidth, kHeight), by_one(kWidth, kHeight);
     all.find(x, camera, params, true);
-    split.find(x, camera, params, false);
+    split.find(x, camera, params, false, 3);
+    by_one.find(x, camera, params, false, 1);
     double difference = 0, sum = 0;
     float largest = 0;
     int covered = 0;
@@ -156,6 +157,7 @@ TEST_CASE("splats: with half as many pixels deep ones are as thick, and none of 
         const float expected = all.thickness_smooth().row(y)[k];
         const float error = std::abs(split.thickness_smooth().row(y)[k] - expected);
         if (!(all.depth().row(y)[k] > kNothing)) continue;
+        CHECK(by_one.thickness_smooth().row(y)[k] == split.thickness_smooth().row(y)[k]);
         CHECK(split.depth().row(y)[k] == all.depth().row(y)[k]);
         ++covered;
         difference += static_cast<double>(error);

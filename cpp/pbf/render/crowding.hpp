@@ -19,9 +19,9 @@ namespace pbf {
 /// its faces, edges and corners, where the inner neighbor counts. With s = 2.4 particle distances c
 /// is 0.55 in a sheet of a single layer, 0.4 in a cube of eight and 0.2 in a row.
 ///
-/// In a full cell the sum is 9 as well, but for one particle in thousands; cells cost a twentieth.
-/// Particles deep within a body, most of a million, are not looked at again. And where m_i is 9,
-/// c_j is 1 for every j with u_ij >= 2/3, so that one sum answers for ten particles around.
+/// In a full cell the sum is 9 as well, but for one particle in thousands. Particles deep within a
+/// body, most of a million, are not looked at again. And where m_i is 9, c_j is 1 for every j with
+/// u_ij >= 2/3, so that one sum answers for ten particles around.
 class Crowding {
  public:
   /// @param positions  finite [m]

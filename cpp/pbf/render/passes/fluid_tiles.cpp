@@ -4,8 +4,7 @@
 
 namespace pbf {
 
-FluidTiles::FluidTiles(int width, int height)
-    : buffer_(GL_ARRAY_BUFFER), reached_(width, height) {
+FluidTiles::FluidTiles(int width, int height) : buffer_(GL_ARRAY_BUFFER), reached_(width, height) {
   array_.instances(buffer_, 3, 0);
 }
 
