@@ -7,7 +7,7 @@ Tint::Tint(const GlslSource& source)
                {.vertex = {"frame.glsl", "sphere_outline.glsl", "color.glsl", "spheres.vert"},
                 .fragment = {"frame.glsl", "sphere_hit.glsl", "tint.frag"},
                 .defines = {}}) {
-  (void)program_.with({"LINEAR", "POINTS"});  // an error in a shader shows now
+  (void)program_.with({"TINT", "POINTS"});  // an error in a shader shows now
 }
 
 void Tint::operator()(const ColoredParticles& particles,
@@ -16,7 +16,7 @@ void Tint::operator()(const ColoredParticles& particles,
                       const Framebuffer& out) {
   depth.bind(0);
   out.clear(0, {0, 0, 0, 0});
-  const Program& program = particles.choose(program_, {"LINEAR"});
+  const Program& program = particles.choose(program_, {"TINT"});
   program.use();
   program.set("u_depth", 0);
   program.set("u_radius", radius);
