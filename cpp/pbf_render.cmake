@@ -37,6 +37,8 @@ add_library(pbf_render STATIC
   pbf/render/passes/fluid_tiles.cpp
   pbf/render/passes/sphere_depth.cpp
   pbf/render/passes/thickness.cpp
+  pbf/render/passes/back_depth.cpp
+  pbf/render/passes/backdrop.cpp
   pbf/render/passes/smooth.cpp
   pbf/render/passes/curvature_flow.cpp
   pbf/render/passes/normal.cpp
@@ -74,6 +76,7 @@ pbf_embed_glsl(pbf_render
   sphere_hit.glsl
   sphere_depth.frag
   thickness.frag
+  back_depth.frag
   fullscreen.vert
   fluid_tiles.vert
   smooth.frag
@@ -81,7 +84,7 @@ pbf_embed_glsl(pbf_render
   normal.frag
   environment.glsl
   display.glsl
-  background.frag
+  backdrop.frag
   opaque_meshes.vert
   opaque_meshes.frag
   composite.frag

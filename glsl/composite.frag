@@ -1,7 +1,8 @@
-// composite.frag: in: smoothed affine depth, smoothed thickness [m], normal (eye space). Out: the
-// fluid, linear, multiplied by alpha, to be blended over what is behind.
+// composite.frag: in: smoothed affine depth of front and back, smoothed thickness [m], normal (eye
+// space). Out: the fluid, linear, multiplied by alpha, to be blended over what is behind.
 uniform sampler2D u_depth;
 uniform sampler2D u_thickness;
+uniform sampler2D u_back;          // smoothed affine depth of the far side
 uniform sampler2D u_normal;
 #ifdef MESHES
 uniform sampler2D u_mesh_light;    // linear
@@ -80,34 +81,77 @@ void follow_to_wall_or_floor(inout Ray ray) {
   }
 }
 
-// The ray from a point of the surface to what is seen through the fluid.
+// The far side of the fluid at a pixel, in eye space [m]; where there is no fluid, as far away as
+// `else_at`.
+vec3 back_at(ivec2 pixel, float else_at) {
+  pixel = clamp(pixel, ivec2(0), ivec2(u_size.xy) - 1);
+  float a = texelFetch(u_back, pixel, 0).r;
+  return eye_position(vec2(pixel) + 0.5, is_surface(a) ? depth_of(a) : else_at);
+}
+
+// Its normal, towards the viewer, from points about a sprite apart. A step of depth is no slope.
+vec3 back_normal(ivec2 pixel, float depth) {
+  int apart = max(int(0.7 * u_radius * pixels_per_meter(depth)), 1);
+  pixel = clamp(pixel, ivec2(apart), max(ivec2(u_size.xy) - 1 - apart, ivec2(apart)));
+  vec3 right = back_at(pixel + ivec2(apart, 0), depth) - back_at(pixel - ivec2(apart, 0), depth);
+  vec3 up = back_at(pixel + ivec2(0, apart), depth) - back_at(pixel - ivec2(0, apart), depth);
+  float most = 2.0 * right.x;
+  right.z = clamp(right.z, -most, most);
+  up.z = clamp(up.z, -most, most);
+  return normalize(cross(right, up) + vec3(0.0, 0.0, 1e-12));
+}
+
+// Out of the fluid through a surface whose normal is against the ray: bent, mirrored where it meets
+// the surface too flat, and in between towards both by their share of the light.
+vec3 out_of(vec3 direction, vec3 n) {
+  float c = clamp(-dot(direction, n), 0.0, 1.0);
+  float sine2 = u_refractive_index * u_refractive_index * (1.0 - c * c);
+  float outside = sqrt(max(1.0 - sine2, 0.0));  // cosine
+  vec3 bent = u_refractive_index * (direction + c * n) - outside * n;
+  float mirrored = sine2 < 1.0 ? fresnel(outside, u_refractive_index) : 1.0;
+  return normalize(mix(normalize(bent), reflect(direction, n), mirrored));
+}
+
+// The ray from a point of the surface (eye space) to what is seen through the fluid.
 // @param to_mesh  length of the straight way to a mesh [m]
 // @param body     0 for a drop, 1 in a body of fluid
-Ray refracted(vec3 position, vec3 view, vec3 n, float thickness, float to_mesh, float body) {
+Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float body) {
   float eta = 1.0 / u_refractive_index;
-  vec3 once = to_world(refract(view, n, eta));
-  vec3 twice = to_world(refract(view, n, eta * eta));
+  vec3 into = refract(view, n, eta);
+  vec3 once = to_world(into);
+  vec3 position = u_eye + to_world(p);
+  vec3 outward;
+  float to_end = min(distance_to_floor(position, once), distance_to_wall(position, once, outward));
   Ray bound = Ray(position, once, 0.0, once);
   follow_to_wall_or_floor(bound);
-  // Or out at a free surface: a drop's far side bends the ray once more by as much.
-  // Which of them, tells how much of the straight way to wall or floor is fluid.
-  vec3 straight = to_world(view);
-  vec3 outward;
-  float to_end = min(distance_to_floor(position, straight),
-                     distance_to_wall(position, straight, outward));
-  to_end = min(to_end, to_mesh);
-  float is_bound = smoothstep(0.6, 0.9, thickness / max(to_end, 1e-3 * u_tile));
-  // And along the bent one there must be fluid as well.
-  float bent_way = min(bound.way, to_mesh);
-  float between = 0.0;
-  for (int k = 1; k <= 4; ++k) {
-    vec3 along = mat3(u_view) * (position + 0.2 * float(k) * bent_way * once - u_eye);
-    ivec2 there = ivec2(clamp(pixel_of(along), vec2(0.0), u_size.xy - 1.0));
-    between += 0.25 * min(texelFetch(u_thickness, there, 0).r / max(0.4 * bent_way, 1e-6), 1.0);
+  // Where the bent ray comes to the far side: what stands at the pixel of a guess is the next one.
+  // Beyond the outline it has left the fluid by a side.
+  float deep = -back_at(ivec2(gl_FragCoord.xy), -p.z).z + p.z;
+  float straight = max(deep, 0.0) / -view.z;
+  float way = straight;
+  ivec2 at;
+  for (int k = 0; k < 4; ++k) {
+    vec3 guess = p + way * into;
+    at = ivec2(floor(pixel_of(guess)));
+    float found = (back_at(at, -guess.z).z - p.z) / min(into.z, -0.1);
+    way = clamp(found, 0.0, 3.0 * straight);
   }
-  is_bound *= body * smoothstep(0.2, 0.9, between);
-  return Ray(mix(position, bound.at, is_bound), normalize(mix(twice, bound.direction, is_bound)),
-             mix(thickness, bound.way, is_bound), normalize(mix(twice, once, is_bound)));
+  vec3 through = to_world(out_of(into, back_normal(at, way - p.z)));
+  // Fluid that reaches up to wall or floor has no far side of its own.
+  float gap = min(to_end, to_mesh) - way;
+  float is_bound = 1.0 - smoothstep(0.5 * u_radius, 3.0 * u_radius, gap);
+  // A drop's far side bends the ray once more by as much as the near one. So does a sheet, behind
+  // which there is air before there is more.
+  vec3 twice = to_world(refract(view, n, eta * eta));
+  float filled = thickness / max(straight, 1e-6);
+  float solid = body * smoothstep(0.55, 0.9, filled);
+  is_bound *= body * smoothstep(0.35, 0.75, filled);
+  solid = max(solid, is_bound);
+  float length = mix(thickness, way * filled, solid);
+  return Ray(mix(position + way * once, bound.at, is_bound),
+             normalize(mix(mix(twice, through, solid), bound.direction, is_bound)),
+             mix(length, bound.way * min(filled, 1.0), is_bound),
+             normalize(mix(twice, once, solid)));
 }
 
 #ifdef MESHES
@@ -179,7 +223,7 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   mirrored *= u_has_tint == 1 ? 0.3 : 1.0;
   vec3 mirror = to_world(reflect(view, n));
   vec3 reflection = environment(MIRRORED(mirror, SPREAD), position, mirror, -p.z, SPREAD).rgb;
-  Ray ray = refracted(position, view, n, thickness, to_mesh, body);
+  Ray ray = refracted(p, view, n, thickness, to_mesh, body);
   vec4 behind = environment(BACKDROP(ray.direction, SPREAD), ray.at, ray.direction, -p.z, SPREAD);
 #ifdef MESHES
   vec3 light;

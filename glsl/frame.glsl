@@ -14,9 +14,10 @@ layout(std140) uniform Frame {
   vec4 u_size;
 };
 
-const float NOTHING = -1e30;  // affine depth where there is no fluid
+// Affine depth where there is no fluid; of far sides, whose least is looked for, its opposite.
+const float NOTHING = -1e30;
 
-bool is_surface(float a) { return a > -1e29; }
+bool is_surface(float a) { return abs(a) < 1e29; }
 float affine_depth(float d) { return u_size.z > 0.5 ? 1.0 / d : -d; }
 float depth_of(float a) { return u_size.z > 0.5 ? 1.0 / a : -a; }
 

@@ -70,8 +70,8 @@ float smoothed(ivec2 pixel, float value, float radius, Window window) {
     float fade = clamp(reach + 1.0 - x, 0.0, 1.0);
     vec2 neighbors = vec2(texelFetch(u_values, pixel + u_axis * min(offset, last - at), 0).r,
                           texelFetch(u_values, pixel - u_axis * min(offset, at), 0).r);
-    bvec2 exist = bvec2(offset <= last - at && neighbors.x > empty,
-                        offset <= at && neighbors.y > empty);
+    bvec2 exist = bvec2(offset <= last - at && neighbors.x > empty && neighbors.x < 1e29,
+                        offset <= at && neighbors.y > empty && neighbors.y < 1e29);
 #if defined(NARROW_RANGE)
     exist = open = bvec2(open.x && exist.x, open.y && exist.y);
 #endif

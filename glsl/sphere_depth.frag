@@ -1,13 +1,13 @@
 // sphere_depth.frag: in: sphere. Out: affine depth of its front with its crowding, for MAX
-// blending. With THICKNESS
-// also the thickness, for ADD blending: the pass of both where a driver blends each target in its
-// own way (OpenGL 4.0).
+// blending. With ALL also thickness, for ADD blending, and affine depth of its far side, for MIN
+// blending: the pass of all where a driver blends each target in its own way (OpenGL 4.0).
 flat in vec4 v_sphere;  // center in eye space and radius [m]
 flat in float v_crowding;
 layout(location = 0) out float o_depth;
-#ifdef THICKNESS
+#ifdef ALL
 flat in float v_share;  // particle's volume / sphere's volume
 layout(location = 1) out float o_thickness;  // [m]
+layout(location = 2) out float o_back;
 #endif
 
 void main() {
@@ -15,7 +15,8 @@ void main() {
   bool seen = hit.chord > 0.0 && hit.front >= u_lens.z;
   // No discard: neutral values of the blending cost less.
   o_depth = seen ? with_crowding(affine_depth(hit.front), v_crowding) : NOTHING;
-#ifdef THICKNESS
+#ifdef ALL
   o_thickness = max(hit.chord, 0.0) * v_share;
+  o_back = back_of(hit);
 #endif
 }

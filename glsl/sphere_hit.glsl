@@ -5,6 +5,11 @@ struct Hit {
   float chord;  // length inside, between the near and the far plane [m]; <= 0: missed
 };
 
+// Affine depth of the far side, for MIN blending.
+float back_of(Hit hit) {
+  return hit.chord > 0.0 ? affine_depth(min(hit.back, u_lens.w)) : -NOTHING;
+}
+
 Hit hit_sphere(vec2 pixel, vec3 center, float radius) {
   vec3 origin = ray_origin(pixel);
   vec3 direction = ray_direction(pixel);

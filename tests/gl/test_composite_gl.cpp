@@ -19,12 +19,13 @@ std::array<double, 3> seen(const RenderParams& params, double thickness, const V
   for (int k = 0; k < 65 * 65; ++k) {
     data.insert(data.end(), {normal.x(), normal.y(), normal.z(), 0});
   }
+  const Texture back = gl.texture([&](int, int) { return 1 / (2 + thickness); });
   const Texture normals(65, 65, Format::rgba32f, data.data());
   const Texture color(65, 65, Format::srgb8);
   const Framebuffer out({&color});
   Composite pass(glsl_source);
-  pass({gl.tiles(), depth, thick, normals, depth, nullptr}, {.shadow = SunShadow{}}, camera, params,
-       out);
+  pass({gl.tiles(), depth, thick, back, normals, depth, nullptr}, {.shadow = SunShadow{}}, camera,
+       params, out);
   std::vector<std::uint8_t> pixels(65 * 65 * 4);
   out.read(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   std::array<double, 3> linear{};

@@ -18,7 +18,7 @@ namespace {
 constexpr int kWidth = 200, kHeight = 150;
 
 struct Drawn {
-  std::vector<float> depth, thickness;
+  std::vector<float> depth, thickness, back;
   bool operator==(const Drawn&) const = default;
 };
 
@@ -33,12 +33,14 @@ Drawn draw(const Records& particles, const RenderParams& params, int threads) {
   const SplatView view = splat_view(frame_block(ahead(), kWidth, kHeight), params);
   Splats splats;
   Map depth(kWidth, kHeight, kNothing), thickness(kWidth, kHeight, 0);
+  Map back(kWidth, kHeight, kNothing);
   splats.bin(particles.data(), particles.size(), view, threads);
-  splats.draw(view, &depth, thickness, threads);
+  splats.draw(view, &depth, thickness, &back, threads);
   Drawn result;
   for (int y = 0; y < kHeight; ++y) {
     result.depth.insert(result.depth.end(), depth.row(y), depth.row(y) + kWidth);
     result.thickness.insert(result.thickness.end(), thickness.row(y), thickness.row(y) + kWidth);
+    result.back.insert(result.back.end(), back.row(y), back.row(y) + kWidth);
   }
   return result;
 }

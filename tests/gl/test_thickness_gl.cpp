@@ -47,6 +47,7 @@ TEST_CASE("thickness: alone and together with the depth it is the same") {
   const Thickness pass(glsl_source);
   pass(sprites, params, Framebuffer({&alone}));
   const SphereDepth both(glsl_source, true);
-  both(sprites, params, Framebuffer({&depth, &together}));
+  const Texture back(gl.width(), gl.height(), Format::r32f);
+  both(sprites, params, Framebuffer({&depth, &together, &back}));
   CHECK(gl.read(alone) == gl.read(together));
 }

@@ -300,8 +300,8 @@ def test_a_report_counts_particles_and_times_passes_when_asked(renderer):
         timed.render([[0, 0, -1]], camera)
         passes = set(timed.report["milliseconds"])
     assert passes == {
-        *("crowding", "upload", "sphere_depth", "depth_smooth", "thickness_smooth"),
-        *("normal", "shadow", "composite", "read_back"),
+        *("crowding", "upload", "sphere_depth", "depth_smooth", "back_smooth"),
+        *("thickness_smooth", "normal", "shadow", "composite", "read_back"),
     }
     assert "OpenGL" in renderer.description
     assert set(renderer.info) == {"renderer", "vendor", "version", "platform", "choice"}

@@ -289,3 +289,53 @@ def test_without_a_map_there_is_none_to_show(renderer, field):
         renderer.render(NOTHING, camera, pbf.RenderParams(**{field: "map"}))
     with pbf.Renderer(16, 16, environment_map=np.ones((2, 4, 3))) as mine:
         assert mine.render(NOTHING, camera, params(**{field: "map"})).min() == 255
+
+
+STILL = {
+    "camera": pbf.Camera(eye=(2, 1.5, 2), target=(0.5, 0.2, 0.25)),
+    "params": pbf.RenderParams(radius=0.03, tank_lower=(0, 0, 0), tank_upper=(1, 0.5, 0.5)),
+    "positions": pbf.block((0, 0, 0), (0.3, 0.3, 0.5), spacing=0.025),
+    "meshes": (),
+}
+TABLE = rectangle((0.6, 0.0), (0.9, 0.3), 0.2)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"camera": pbf.Camera(eye=(2, 1.5, 2.2), target=(0.5, 0.2, 0.25))},
+        {"camera": pbf.Camera(eye=(2, 1.5, 2), target=(0.5, 0.2, 0.25), fov_y=50)},
+        {"params": STILL["params"].replace(tank_upper=(1.2, 0.5, 0.5))},
+        {"params": STILL["params"].replace(radius=0.035)},
+        {"params": STILL["params"].replace(sun_direction=(0.5, 0.8, 0.3))},
+        {"params": STILL["params"].replace(shadow=0.0)},
+        {"params": STILL["params"].replace(floor_height=-0.1)},
+        {"params": STILL["params"].replace(background="plain", background_color=(0.2, 0.5, 0.3))},
+        {"params": STILL["params"].replace(exposure=0.7)},
+        {"params": STILL["params"].replace(tone_mapping="aces")},
+        {"params": STILL["params"].replace(supersampling=2)},
+        {"params": STILL["params"].replace(background="transparent")},
+        {"positions": STILL["positions"] + np.float32([0.5, 0, 0])},
+        {"positions": NOTHING},
+        {"meshes": (TABLE,)},
+    ],
+    ids=str,
+)
+def test_the_background_that_is_kept_follows_every_change(renderer, change):
+    before, after = STILL, {**STILL, **change}
+    with pbf.Renderer(160, 120) as fresh:
+        expected = fresh.render(**after)
+    first = renderer.render(**before)
+    assert np.array_equal(renderer.render(**before), first)
+    assert np.array_equal(renderer.render(**after), expected)
+    assert (expected != first).any()
+    assert np.array_equal(renderer.render(**before), first)
+
+
+def test_the_background_that_is_kept_follows_the_environment_map(renderer):
+    camera, mapped = pbf.Camera(**ALONG_Z), params(background="map")
+    for color in (0.2, 0.6, 0.4):
+        renderer.set_environment_map(np.full((4, 8, 3), color))
+        image = linear(renderer.render(NOTHING, camera, mapped))
+        assert image[10, 10] == pytest.approx([color] * 3, abs=0.01)
+    renderer.set_environment_map(None)

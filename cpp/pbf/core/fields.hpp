@@ -111,6 +111,14 @@ std::string to_text(const T& value) {
   return out.str();
 }
 
+/// Whether two structs agree in every field.
+template <class Params>
+bool same(const Params& a, const Params& b) {
+  return std::apply(
+      [&](const auto&... field) { return ((a.*(field.member) == b.*(field.member)) && ...); },
+      Params::fields());
+}
+
 /// Every broken rule of one struct, so that a user mends them in one go.
 class Faults {
  public:

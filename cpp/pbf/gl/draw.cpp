@@ -19,8 +19,11 @@ void set_draw_state(Blend blend) {
     return;
   }
   glEnable(GL_BLEND);
-  glBlendEquation(blend == Blend::max || blend == Blend::max_and_add ? GL_MAX : GL_FUNC_ADD);
-  if (blend == Blend::max_and_add) glBlendEquationi(1, GL_FUNC_ADD);
+  glBlendEquation(blend == Blend::max ? GL_MAX : blend == Blend::min ? GL_MIN : GL_FUNC_ADD);
+  if (blend == Blend::max_add_min) {
+    glBlendEquationi(0, GL_MAX);
+    glBlendEquationi(2, GL_MIN);
+  }
   if (blend == Blend::over) {
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   } else {

@@ -7,7 +7,8 @@ enum class Blend {
   replace,
   max,          ///< the larger value stays
   add,          ///< the sum
-  max_and_add,  ///< max in the first target, add in the second; OpenGL 4.0
+  min,          ///< the smaller value stays
+  max_add_min,  ///< one for each of three targets; OpenGL 4.0
   over,         ///< by the alpha of what is drawn, whose color has been multiplied by it
   nearest,      ///< what is drawn with the greater depth replaces; needs a depth buffer
 };

@@ -44,6 +44,13 @@ void Framebuffer::clear_depth() const {
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
+void Framebuffer::copy_to(const Framebuffer& other) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.handle_.name());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 void Framebuffer::read(GLenum format, GLenum type, void* data) const {
   bind();
   glReadBuffer(GL_COLOR_ATTACHMENT0);

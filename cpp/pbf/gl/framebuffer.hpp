@@ -20,6 +20,8 @@ class Framebuffer {
   void clear(int target, std::array<float, 4> value) const;
   /// To 0, the farthest for Blend::nearest.
   void clear_depth() const;
+  /// To another of the same size, from the first target to its first.
+  void copy_to(const Framebuffer& other) const;
   /// Rows from the bottom up, as many floats per pixel as the format has channels.
   void read(GLenum format, GLenum type, void* data) const;
 

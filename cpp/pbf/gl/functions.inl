@@ -50,6 +50,18 @@ PBF_GL(void, glBindTexture, (GLenum target, GLuint texture))
 PBF_GL(void, glBindVertexArray, (GLuint array))
 PBF_GL(void, glBlendEquation, (GLenum mode))
 PBF_GL(void, glBlendFunc, (GLenum source, GLenum target))
+PBF_GL(void,
+       glBlitFramebuffer,
+       (GLint x0,
+        GLint y0,
+        GLint x1,
+        GLint y1,
+        GLint to_x0,
+        GLint to_y0,
+        GLint to_x1,
+        GLint to_y1,
+        GLbitfield what,
+        GLenum filter))
 PBF_GL(void, glBufferData, (GLenum target, GLsizeiptr bytes, const void* data, GLenum usage))
 PBF_GL(GLenum, glCheckFramebufferStatus, (GLenum target))
 PBF_GL(void, glClearBufferfv, (GLenum buffer, GLint index, const GLfloat* value))

@@ -25,12 +25,16 @@ Layout layout_of(Format format) {
   return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 }
 
+/// The unit in which textures are made and filled, so that what a pass has bound stays bound. Every
+/// driver has it.
+constexpr int kNobodys = 15;
+
 }  // namespace
 
 Texture::Texture(int width, int height, Format format, const void* data, Sampling sampling)
     : width_(width), height_(height), format_(format) {
   const Layout layout = layout_of(format);
-  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  bind(kNobodys);
   const bool panorama = sampling == Sampling::panorama;
   const GLint filter = sampling == Sampling::nearest ? GL_NEAREST : GL_LINEAR;
   if (!panorama) glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -46,7 +50,7 @@ Texture::Texture(int width, int height, Format format, const void* data, Samplin
 
 void Texture::upload(const void* data, int pitch) const {
   const Layout layout = layout_of(format_);
-  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  bind(kNobodys);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, pitch);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, layout.format, layout.type, data);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);

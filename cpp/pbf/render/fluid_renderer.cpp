@@ -6,6 +6,7 @@
 #include "pbf/render/glsl_source.hpp"
 #include "pbf/render/legend.hpp"
 #include "pbf/render/nearest.hpp"
+#include "pbf/render/passes/back_depth.hpp"
 #include "pbf/render/passes/composite.hpp"
 #include "pbf/render/passes/curvature_flow.hpp"
 #include "pbf/render/passes/normal.hpp"
@@ -84,11 +85,13 @@ void upload(const raster::Map& map, const Texture& texture) {
 
 }  // namespace
 
-/// Compiled once. Which of the two ways depth and thickness come about is the driver's ability.
+/// Compiled once. Whether depth, thickness and back depth come about at once is the driver's
+/// ability.
 struct FluidRenderer::Passes {
   Passes(bool one_pass, bool in_cpp)
       : sphere_depth(glsl_source, one_pass),
         thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)),
+        back_depth(one_pass ? nullptr : std::make_unique<BackDepth>(glsl_source)),
         smooth(in_cpp ? nullptr : std::make_unique<Smooth>(glsl_source)),
         curvature_flow(in_cpp ? nullptr : std::make_unique<CurvatureFlow>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
@@ -96,6 +99,7 @@ struct FluidRenderer::Passes {
   Sprites sprites;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
+  std::unique_ptr<BackDepth> back_depth;
   // Compiling takes longer than a frame: not what the C++ passes do.
   std::unique_ptr<Smooth> smooth;
   std::unique_ptr<CurvatureFlow> curvature_flow;
@@ -111,20 +115,23 @@ struct FluidRenderer::Targets {
   Targets(int w, int h)
       : depth(w, h, Format::r32f),
         thickness(w, h, Format::r32f),
-        depth_and_thickness({&depth.texture, &thickness.texture}),
+        back(w, h, Format::r32f),
+        depth_thickness_back({&depth.texture, &thickness.texture, &back.texture}),
         between(w, h, Format::r32f),
         depth_smooth(w, h, Format::r32f),
         thickness_smooth(w, h, Format::r32f),
+        back_smooth(w, h, Format::r32f),
         normal(w, h, Format::rgba32f),
         color(w, h, Format::srgb8),
         tiles(w, h),
         width(w),
         height(h) {}
-  Target depth, thickness;              ///< affine depth; [m]
-  Framebuffer depth_and_thickness;      ///< both of these at once
+  Target depth, thickness, back;        ///< affine depth; [m]; affine depth
+  Framebuffer depth_thickness_back;     ///< all of these at once
   Target between;                       ///< a filter's first half
   Target depth_smooth;                  ///< affine depth
   Target thickness_smooth;              ///< [m]
+  Target back_smooth;                   ///< affine depth
   Target normal;                        ///< eye space
   Target color;                         ///< multiplied by alpha
   FluidTiles tiles;                     ///< where any of these can hold fluid
@@ -225,8 +232,9 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
   });
   if (to.spheres == nullptr) to.spheres = std::make_unique<Targets::Spheres>(to);
   stage("spheres", [&] { passes_->spheres(passes_->colored, radius, to.spheres->framebuffer); });
-  return {to.tiles,          to.depth.texture, to.thickness.texture,
-          to.normal.texture, to.depth.texture, nullptr};
+  return {to.tiles,         to.depth.texture,  to.thickness.texture,
+          to.depth.texture, to.normal.texture, to.depth.texture,
+          nullptr};
 }
 
 const Texture& FluidRenderer::draw_tint(const PointsView& positions,
@@ -258,14 +266,20 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
     upload(maps_->depth(), to.depth.texture);
     upload(maps_->depth_smooth(), to.depth_smooth.texture);
     upload(maps_->thickness_smooth(), to.thickness_smooth.texture);
+    upload(maps_->back_smooth(), to.back_smooth.texture);
     to.tiles.upload(maps_->tiles());
   });
   stage("normal", [&] {
     passes_->normal(to.tiles, to.depth_smooth.texture, params.smoothing_range_in_force(),
                     to.normal.framebuffer);
   });
-  return {to.tiles,          to.depth_smooth.texture, to.thickness_smooth.texture,
-          to.normal.texture, to.depth.texture,        nullptr};
+  return {to.tiles,
+          to.depth_smooth.texture,
+          to.thickness_smooth.texture,
+          to.back_smooth.texture,
+          to.normal.texture,
+          to.depth.texture,
+          nullptr};
 }
 
 Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
@@ -282,10 +296,12 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     to.tiles.find(pass.crowding.shallow(), frame, params.radius);
   });
   if (pass.thickness == nullptr) {
-    stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth_and_thickness); });
+    stage("sphere_depth",
+          [&] { pass.sphere_depth(pass.sprites, params, to.depth_thickness_back); });
   } else {
     stage("sphere_depth", [&] { pass.sphere_depth(pass.sprites, params, to.depth.framebuffer); });
     stage("thickness", [&] { (*pass.thickness)(pass.sprites, params, to.thickness.framebuffer); });
+    stage("back_depth", [&] { (*pass.back_depth)(pass.sprites, params, to.back.framebuffer); });
   }
   const auto smooth = [&](const LayerFilter& filter, int iterations, const Texture& values,
                           const Target& out) {
@@ -311,6 +327,10 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
       depth = &to.depth_smooth.texture;
     }
   });
+  stage("back_smooth", [&] {
+    (*pass.smooth)(back_filter(params), to.tiles, to.back.texture, to.depth.texture,
+                   to.between.framebuffer, to.between.texture, to.back_smooth.framebuffer);
+  });
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
     thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
@@ -319,7 +339,8 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   stage("normal", [&] {
     pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
   });
-  return {to.tiles, *depth, *thickness, to.normal.texture, to.depth.texture, nullptr};
+  return {to.tiles,          *depth,           *thickness, to.back_smooth.texture,
+          to.normal.texture, to.depth.texture, nullptr};
 }
 
 Image FluidRenderer::render(const PointsView& positions,
@@ -374,6 +395,7 @@ Image FluidRenderer::render(const PointsView& positions,
 
 void FluidRenderer::set_environment_map(const std::optional<EnvironmentMap>& map) {
   const auto current = context_.make_current();
+  passes_->composite.forget_backdrop();
   if (!map) {
     environment_map_.reset();
     return;

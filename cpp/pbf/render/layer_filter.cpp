@@ -13,6 +13,12 @@ LayerFilter depth_filter(const RenderParams& params) {
           .behind = std::min(params.radius, range)};
 }
 
+LayerFilter back_filter(const RenderParams& params) {
+  LayerFilter filter = depth_filter(params);
+  filter.kind = Smoothing::gaussian;
+  return filter;
+}
+
 LayerFilter thickness_filter(const RenderParams& params) {
   return {.layer = LayerFilter::Layer::thickness,
           .kind = params.thickness_smoothing == ThicknessSmoothing::gaussian ? Smoothing::gaussian

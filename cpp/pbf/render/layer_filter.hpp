@@ -19,6 +19,8 @@ struct LayerFilter {
 
 LayerFilter depth_filter(const RenderParams& params);
 LayerFilter thickness_filter(const RenderParams& params);
+/// Of the far side's affine depth: run once.
+LayerFilter back_filter(const RenderParams& params);
 
 /// More neighbors to a side than this are thinned out evenly.
 inline constexpr int kMostTaps = 24;

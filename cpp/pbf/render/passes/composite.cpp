@@ -18,11 +18,7 @@ std::vector<std::string> with_meshes(std::vector<std::string> defines, const Mes
 }  // namespace
 
 Composite::Composite(const GlslSource& source)
-    : background_(
-          source,
-          {.vertex = {"frame.glsl", "fluid_tiles.vert"},
-           .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "background.frag"},
-           .defines = {}}),
+    : backdrop_(source),
       fluid_(source,
              {.vertex = {"frame.glsl", "fluid_tiles.vert"},
               .fragment = {"frame.glsl", "environment.glsl", "display.glsl", "composite.frag"},
@@ -36,11 +32,8 @@ Composite::Composite(const GlslSource& source)
                   {.vertex = {"frame.glsl", "tank_edges.vert"},
                    .fragment = {"frame.glsl", "tank_edges.frag"},
                    .defines = {}}),
-      opaque_meshes_(source),
-      squares_(GL_ARRAY_BUFFER) {
-  squares_array_.instances(squares_, 3, 0);
+      opaque_meshes_(source) {
   // An error in a shader shows when the renderer is made.
-  (void)background_.with(environment_defines({}, true));
   (void)fluid_.with(environment_defines({}, true));
   (void)spheres_.with(environment_defines({}, true));
   (void)tank_edges_.with({});
@@ -59,17 +52,17 @@ void Composite::operator()(const Surface& surface,
   if (surroundings.map != nullptr) surroundings.map->bind(kMap);
   surface.depth.bind(kDepth);
   surface.thickness.bind(kThickness);
+  surface.back.bind(kBack);
   surface.normal.bind(kNormal);
   surface.spheres.bind(kSpheres);
   if (surface.tint != nullptr) surface.tint->bind(kTint);
-  out.bind();
-  draw_background(surroundings, camera, params, {surface.depth.width(), surface.depth.height()});
+  backdrop_(surroundings, camera, params, out);
   if (meshes != nullptr) {
     opaque_meshes_(*surroundings.meshes, surroundings, camera, params, *meshes);
     meshes->light.bind(kMeshLight);
     meshes->depth.bind(kMeshDepth);
-    out.bind();
   }
+  out.bind();
   const Vec3 absorption = surface.tint != nullptr ? params.tint_absorption() : params.absorption;
   const bool opaque = params.style == Style::spheres;
   const Program& body =
@@ -79,6 +72,7 @@ void Composite::operator()(const Surface& surface,
   set_environment(body, surroundings, camera, params);
   body.set("u_depth", kDepth);
   body.set("u_thickness", kThickness);
+  body.set("u_back", kBack);
   body.set("u_normal", kNormal);
   body.set("u_spheres", kSpheres);
   body.set("u_drop_radius", params.drop_radius_in_force());
@@ -107,36 +101,6 @@ void Composite::operator()(const Surface& surface,
   no_vertices_.bind();
   set_draw_state(Blend::over);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 12);
-}
-
-void Composite::draw_background(const Surroundings& surroundings,
-                                const Camera& camera,
-                                const RenderParams& params,
-                                std::array<int, 2> size) {
-  // The shadow is worked out only in the squares where it can lie.
-  const Rectangle reach = shadow_rectangle(surroundings.shadow, camera, params, size[0], size[1]);
-  constexpr int kSide = FluidTiles::kSide;
-  std::array<std::vector<float>, 2> squares;
-  for (int y = 0; y < size[1]; y += kSide) {
-    for (int x = 0; x < size[0]; x += kSide) {
-      const bool in_shadow =
-          x + kSide > reach.x0 && x < reach.x1 && y + kSide > reach.y0 && y < reach.y1;
-      for (const int value : {x, y, kSide}) {
-        squares[in_shadow ? 1 : 0].push_back(static_cast<float>(value));
-      }
-    }
-  }
-  for (const bool in_shadow : {false, true}) {
-    const std::vector<float>& corners = squares[in_shadow ? 1 : 0];
-    if (corners.empty()) continue;
-    const Program& background = background_.with(environment_defines(params, in_shadow));
-    background.use();
-    set_environment(background, surroundings, camera, params);
-    squares_.upload(corners.data(), static_cast<GLsizeiptr>(corners.size() * sizeof(float)));
-    set_draw_state(Blend::replace);
-    squares_array_.bind();
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(corners.size() / 3));
-  }
 }
 
 }  // namespace pbf

@@ -4,10 +4,9 @@
 #include "pbf/gl/program.hpp"
 #include "pbf/render/camera.hpp"
 #include "pbf/render/params.hpp"
+#include "pbf/render/passes/backdrop.hpp"
 #include "pbf/render/passes/fluid_tiles.hpp"
 #include "pbf/render/passes/opaque_meshes.hpp"
-
-#include <array>
 
 namespace pbf {
 
@@ -16,6 +15,7 @@ struct Surface {
   const FluidTiles& tiles;
   const Texture& depth;
   const Texture& thickness;
+  const Texture& back;     ///< smoothed affine depth of the far side
   const Texture& normal;   ///< for spheres with their color
   const Texture& spheres;  ///< affine depth with crowding, not smoothed
   const Texture* tint;     ///< color of the fluid (passes/tint.hpp), null for its own
@@ -35,18 +35,14 @@ class Composite {
                   const RenderParams& params,
                   const Framebuffer& out,
                   const MeshTargets* meshes = nullptr);
+  /// To be called when the environment map becomes another.
+  void forget_backdrop() { backdrop_.forget(); }
 
  private:
-  void draw_background(const Surroundings& surroundings,
-                       const Camera& camera,
-                       const RenderParams& params,
-                       std::array<int, 2> size);
-  ProgramVariants background_;
+  Backdrop backdrop_;
   ProgramVariants fluid_, spheres_;
   ProgramVariants tank_edges_;
   OpaqueMeshes opaque_meshes_;
-  Buffer squares_;
-  VertexArray squares_array_;
   VertexArray no_vertices_;
 };
 

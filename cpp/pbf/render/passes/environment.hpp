@@ -17,7 +17,18 @@ struct Surroundings {
 };
 
 /// Texture units of the passes that make the picture.
-enum Unit { kDepth, kThickness, kNormal, kShadow, kMap, kMeshLight, kMeshDepth, kSpheres, kTint };
+enum Unit {
+  kDepth,
+  kThickness,
+  kNormal,
+  kShadow,
+  kMap,
+  kMeshLight,
+  kMeshDepth,
+  kSpheres,
+  kTint,
+  kBack
+};
 
 /// The functions that stand for what is asked for, by their names in glsl/environment.glsl and
 /// display.glsl.

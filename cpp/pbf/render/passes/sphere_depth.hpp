@@ -11,18 +11,18 @@ namespace pbf {
 /// Front of the nearest sphere at each pixel, exactly where the viewing ray enters it, as affine
 /// depth with the sphere's crowding (glsl/frame.glsl). MAX blending takes the nearest: without a
 /// depth buffer that is a third faster in a software rasterizer than gl_FragDepth. Where each
-/// target can blend in its own way (OpenGL 4.0) the thickness comes along in a second target:
-/// hitting each sphere once is cheaper than twice.
+/// target can blend in its own way (OpenGL 4.0) thickness and back depth come along in targets of
+/// their own: hitting each sphere once is cheaper than three times.
 class SphereDepth {
  public:
-  explicit SphereDepth(const GlslSource& source, bool with_thickness);
-  /// @param out  r32f affine depth, and r32f thickness [m] if with_thickness; both are cleared
-  /// first
+  explicit SphereDepth(const GlslSource& source, bool with_others);
+  /// @param out  r32f affine depth, and if with_others r32f thickness [m] and r32f back depth; all
+  /// are cleared first
   void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out) const;
 
  private:
   Program program_;
-  bool with_thickness_;
+  bool with_others_;
 };
 
 }  // namespace pbf

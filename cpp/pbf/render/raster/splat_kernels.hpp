@@ -37,13 +37,14 @@ struct SplatKernels {
                   TileBox* boxes);
   /// Draws sprites into a tile of the maps. Behind the last sprite there must be kMostLanes that
   /// can be read.
-  /// @param depth, thickness  the tile's first pixel; without depth only thickness is drawn
+  /// @param depth, thickness, back  the tile's first pixel; without depth only thickness is drawn
   void (*draw)(const Record* centers,
                Index count,
                const SplatView& view,
                Tile tile,
                float* depth,
                float* thickness,
+               float* back,
                std::ptrdiff_t pitch);
 };
 

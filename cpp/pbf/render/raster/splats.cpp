@@ -161,19 +161,23 @@ void Splats::find_large() {
   }
 }
 
-void Splats::draw(const SplatView& view, Map* depth, Map& thickness, int threads) const {
+void Splats::draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
-  if (depth != nullptr) depth->begin(tiles_);
   thickness.begin(tiles_);
+  if (depth != nullptr) {
+    depth->begin(tiles_);
+    back->begin(tiles_);
+  }
   const std::vector<Tile> tiles = tiles_.list();
   parallel_chunks(static_cast<Index>(tiles.size()), threads, 1, [&](Index first, Index) {
     const Tile tile = tiles[static_cast<std::size_t>(first)];
     const auto number = static_cast<std::size_t>(tile.y / kTileSide * tiles_.columns()) +
                         static_cast<std::size_t>(tile.x / kTileSide);
     const auto draw = [&](const Record* sprites, Index count) {
-      kernels.draw(sprites, count, view, tile,
-                   depth == nullptr ? nullptr : depth->row(tile.y) + tile.x,
-                   thickness.row(tile.y) + tile.x, thickness.pitch());
+      const std::ptrdiff_t at = tile.y * thickness.pitch() + tile.x;
+      kernels.draw(sprites, count, view, tile, depth == nullptr ? nullptr : depth->row(0) + at,
+                   thickness.row(0) + at, depth == nullptr ? nullptr : back->row(0) + at,
+                   thickness.pitch());
     };
     const Record* own = binned_.data() + starts_[number];
     const auto count = static_cast<Index>(starts_[number + 1] - starts_[number]);

@@ -20,7 +20,8 @@ class Splats {
   /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it; if none
   ///                   is given, only thickness is drawn
   /// @param thickness  [m]
-  void draw(const SplatView& view, Map* depth, Map& thickness, int threads) const;
+  /// @param back       affine depth of the farthest far side; given with depth
+  void draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const;
   /// Those that sprites cover.
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
 

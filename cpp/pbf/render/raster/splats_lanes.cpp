@@ -106,6 +106,7 @@ constexpr int kWidth = kTileSide + kLanes;
 struct Workspace {
   alignas(64) float depth[kTileSide * kWidth];
   alignas(64) float thickness[kTileSide * kWidth];
+  alignas(64) float back[kTileSide * kWidth];      // depth [m], 0: none
   alignas(64) float inverse2[kTileSide * kWidth];  // 1 / |direction|²
   alignas(64) float length[kTileSide * kWidth];    // |direction|
   alignas(64) float x[kWidth];                     // of the pixels' rays
@@ -150,6 +151,7 @@ void splat(const Sprite& s, const SplatView& view, Workspace& to) {
       store(to.thickness + at,
             load_lanes(to.thickness + at) + max(select(hit, chord, 0.0F), 0.0F) * s.share);
       if (!kDepth) continue;
+      store(to.back + at, max(load_lanes(to.back + at), select(hit, min(back, view.far), 0.0F)));
       const Mask seen = hit & (chord > Lanes(0.0F)) & (Lanes(view.near) <= front);
       const Lanes affine = kPerspective ? 1.0F / front : -front;
       const Ints bits = (reinterpret_cast<Ints>(affine.v) & ~3) | level;
@@ -166,6 +168,7 @@ void draw_tile(const Record* centers,
                Tile tile,
                float* depth,
                float* thickness,
+               float* back,
                std::ptrdiff_t pitch) {
   Workspace work;
   for (int x = 0; x < kWidth; ++x) {
@@ -179,8 +182,11 @@ void draw_tile(const Record* centers,
   for (int y = 0; y < kTileSide; ++y) {
     for (int x = 0; x < kWidth; x += kLanes) {
       const int at = y * kWidth + x;
-      if (kDepth) store(work.depth + at, kNothing);
       store(work.thickness + at, 0.0F);
+      if (kDepth) {
+        store(work.depth + at, kNothing);
+        store(work.back + at, 0.0F);
+      }
       const Lanes px = load_lanes(work.x + x), py = work.y[y];
       const Lanes length2 = px * px + py * py + 1.0F;
       store(work.inverse2 + at, 1.0F / length2);
@@ -214,10 +220,14 @@ void draw_tile(const Record* centers,
     }
   }
   for (int y = 0; y < kTileSide; ++y) {
-    if (kDepth) {
-      std::memcpy(depth + y * pitch, work.depth + y * kWidth, kTileSide * sizeof(float));
-    }
     std::memcpy(thickness + y * pitch, work.thickness + y * kWidth, kTileSide * sizeof(float));
+    if (!kDepth) continue;
+    std::memcpy(depth + y * pitch, work.depth + y * kWidth, kTileSide * sizeof(float));
+    for (int x = 0; x < kTileSide; x += kLanes) {
+      const Lanes at = load_lanes(work.back + y * kWidth + x);
+      const Lanes affine = kPerspective ? 1.0F / at : -at;
+      store(back + y * pitch + x, select(at > Lanes(0.0F), affine, kNothing));
+    }
   }
 }
 
@@ -227,12 +237,13 @@ void draw(const Record* centers,
           Tile tile,
           float* depth,
           float* thickness,
+          float* back,
           std::ptrdiff_t pitch) {
   const auto draw = depth == nullptr
                         ? view.perspective ? draw_tile<true, false> : draw_tile<false, false>
                     : view.perspective ? draw_tile<true, true>
                                        : draw_tile<false, true>;
-  draw(centers, count, view, tile, depth, thickness, pitch);
+  draw(centers, count, view, tile, depth, thickness, back, pitch);
 }
 
 }  // namespace

@@ -15,7 +15,9 @@ SurfaceMaps::SurfaceMaps(int width, int height)
       thickness_between_(width, height, 0),
       depth_out_(width, height, kNothing),
       thickness_out_(width, height, 0),
-      depth_third_(width, height, kNothing) {}
+      depth_third_(width, height, kNothing),
+      back_(width, height, kNothing),
+      back_out_(width, height, kNothing) {}
 
 template <class F>
 void SurfaceMaps::stage(const char* name, F&& pass) {
@@ -56,12 +58,12 @@ void SurfaceMaps::find(const PointsView& positions,
     const Index deep = exact ? 0 : crowding_.deep();
     const Index shallow = particles.size() - deep;
     splats_.bin(particles.data(), shallow, view, threads);
-    splats_.draw(view, &depth_, thickness_, threads);
+    splats_.draw(view, &depth_, thickness_, &back_, threads);
     if (deep == 0) return;
     // Nobody sees these, and where they are there are no edges.
     const SplatView coarse = halved(view);
     deep_splats_.bin(particles.data() + shallow, deep, coarse, threads);
-    deep_splats_.draw(coarse, nullptr, deep_thickness_, threads);
+    deep_splats_.draw(coarse, nullptr, deep_thickness_, nullptr, threads);
     add_halved(deep_thickness_, tiles(), thickness_, threads);
   });
   const Real nearest = nearest_front(crowding_.shallow(), params.radius, frame, threads);
@@ -76,6 +78,9 @@ void SurfaceMaps::find(const PointsView& positions,
       smooth_depth_ =
           smoothed(filter, iterations, frame, nearest, depth_, depth_between_, depth_out_, threads);
     }
+  });
+  stage("back_smooth", [&] {
+    smooth(back_filter(params), frame, tiles(), back_, depth_, depth_between_, back_out_, threads);
   });
   stage("thickness_smooth", [&] {
     smooth_thickness_ = smoothed(thickness_filter(params), params.thickness_iterations, frame,

@@ -32,7 +32,8 @@ class SurfaceMaps {
   [[nodiscard]] const Tiles& tiles() const { return splats_.tiles(); }
   [[nodiscard]] const Map& depth() const { return depth_; }          ///< affine, with crowding
   [[nodiscard]] const Map& thickness() const { return thickness_; }  ///< [m]
-  [[nodiscard]] const Map& depth_smooth() const { return *smooth_depth_; }          ///< affine
+  [[nodiscard]] const Map& depth_smooth() const { return *smooth_depth_; }  ///< affine
+  [[nodiscard]] const Map& back_smooth() const { return back_out_; }        ///< affine, far side
   [[nodiscard]] const Map& thickness_smooth() const { return *smooth_thickness_; }  ///< [m]
 
   /// Each pass in order and the time it took [ms].
@@ -58,6 +59,7 @@ class SurfaceMaps {
   Map depth_between_, thickness_between_;
   Map depth_out_, thickness_out_;
   Map depth_third_;  // of curvature flow
+  Map back_, back_out_;
   const Map* smooth_depth_ = &depth_;
   const Map* smooth_thickness_ = &thickness_;
   std::vector<std::pair<std::string, double>> milliseconds_;

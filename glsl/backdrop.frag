@@ -1,4 +1,4 @@
-// background.frag: out: the picture without fluid, linear, multiplied by alpha.
+// backdrop.frag: out: the picture without fluid, linear, multiplied by alpha.
 layout(location = 0) out vec4 o_color;
 
 void main() {

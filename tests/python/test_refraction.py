@@ -1,0 +1,106 @@
+"""Light that comes through front and back of the fluid, against Snell's law.
+
+Behind the fluid is an environment map whose color is a linear function of the direction, so that a
+pixel says where its ray came from.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pbfluids as pbf
+
+pytestmark = pytest.mark.gl
+
+INDEX = 1.333
+CAMERA = pbf.Camera(eye=(0, 0, 2), target=(0, 0, 0), orthographic=True, height=1.2)
+CLEAR = pbf.RenderParams(
+    radius=0.03,
+    particle_volume=0.02**3,
+    background="map",
+    reflection="plain",
+    background_color=(0, 0, 0),
+    floor=False,
+    absorption=(0, 0, 0),
+    scatter=(0, 0, 0),
+    tone_mapping="none",
+)
+
+
+def directions(width=512):
+    """A map: (x, y, z) of the direction, -1 to 1, as red, green and blue."""
+    height = width // 2
+    around = 2 * np.pi * ((np.arange(width) + 0.5) / width - 0.5)  # from -z to the right
+    above = np.pi * (0.5 - (np.arange(height) + 0.5) / height)
+    y, a = np.sin(above)[:, None], np.cos(above)[:, None]
+    ways = np.broadcast_arrays(a * np.sin(around), y, -a * np.cos(around))
+    return 0.25 + 0.25 * np.stack(ways, axis=-1)
+
+
+@pytest.fixture(scope="module")
+def renderer():
+    with pbf.Renderer(120, 120, environment_map=directions()) as made:
+        yield made
+
+
+def seen(renderer, positions):
+    """Where each pixel's ray came from, and what Fresnel took is given back."""
+    v = renderer.render(positions, CAMERA, CLEAR)[..., :3] / 255
+    light = np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
+    return light * 4
+
+
+def through(light, mirrored=0.0):
+    return light / (1 - mirrored) - 1
+
+
+def fresnel(angle):
+    c, t = np.cos(angle), np.cos(np.arcsin(np.sin(angle) / INDEX))
+    s, p = (c - INDEX * t) / (c + INDEX * t), (INDEX * c - t) / (INDEX * c + t)
+    return (s * s + p * p) / 2
+
+
+def turned(points, degrees):
+    """About the axis y."""
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return points @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
+
+
+def middle(light):
+    return np.median(light[50:70, 50:70].reshape(-1, 3), axis=0)
+
+
+BLOCK = pbf.block((-0.6, -0.5, -0.12), (0.6, 0.5, 0.12), spacing=0.02)
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 40])
+def test_what_is_far_behind_a_slab_is_not_displaced(renderer, degrees):
+    light = middle(seen(renderer, turned(BLOCK, degrees)))
+    assert through(light, fresnel(np.radians(degrees))) == pytest.approx([0, 0, -1], abs=0.05)
+
+
+@pytest.mark.parametrize("degrees", [10, 20])
+def test_a_prism_bends_twice(renderer, degrees):
+    # The near side faces the camera, the far side is turned.
+    slope = np.tan(np.radians(degrees))
+    prism = BLOCK[BLOCK[:, 2] > slope * BLOCK[:, 0]]
+    out = np.arcsin(INDEX * np.sin(np.radians(degrees))) - np.radians(degrees)
+    light = middle(seen(renderer, prism))
+    # The far side's normal is (slope, 0, -1) over its length: rays bend towards the thick end.
+    assert through(light, fresnel(0.0)) == pytest.approx([-np.sin(out), 0, -np.cos(out)], abs=0.05)
+
+
+def test_a_ball_shows_what_is_behind_it_upside_down(renderer):
+    x = pbf.block((-0.4, -0.4, -0.4), (0.4, 0.4, 0.4), spacing=0.02)
+    light = seen(renderer, x[np.linalg.norm(x, axis=1) < 0.4])
+    across = np.linspace(-0.18, 0.18, 19)  # of the ball's center [m]
+    pixel = np.round((across / 1.2 + 0.5) * 120 - 0.5).astype(int)
+    sine = across / 0.43
+    bent = 2 * (np.arcsin(sine) - np.arcsin(sine / INDEX))  # towards the axis
+    expected = -np.sin(bent)
+    mirrored = fresnel(np.arcsin(np.abs(sine)))[:, None]
+    row = through(light[58:62, pixel].mean(axis=0), mirrored)
+    column = through(light[119 - pixel, 58:62].mean(axis=1), mirrored)
+    assert np.abs(row[:, 0] - expected).max() < 0.12
+    assert np.abs(column[:, 1] - expected).max() < 0.12
