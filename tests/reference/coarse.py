@@ -14,7 +14,7 @@ from reference.params import Array, Box, Fluid
 
 WIDTH = 6.0  # of a cell, in spacings
 ENOUGH = 0.1  # residual of the conjugate gradients, as a share of the first
-MOST_PUSH = 0.5  # of a particle, in squared spacings
+MOST_PUSH = 1.0  # largest multiplier before and largest added, in squared spacings
 
 
 def hats(x: Array, fluid: Fluid, box: Box | None) -> tuple[Array, Array]:
@@ -84,7 +84,7 @@ def coarse_correction(
         G = np.where(held[:, None, :], 0.0, G)
     A = np.einsum("ick,iek->ce", G, G) + alpha * np.einsum("i,ic,ie->ce", a, w, w)
     delta = a * (w @ conjugate_gradients(A, -w.T @ (a * r)))
-    most = MOST_PUSH * fluid.spacing**2
+    most = max(MOST_PUSH * fluid.spacing**2 - np.abs(total).max(), 0.0)
     delta *= min(1.0, most / max(np.abs(delta).max(), 1e-300))
     return np.minimum(total + delta, 0.0) - total
 

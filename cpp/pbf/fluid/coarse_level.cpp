@@ -8,13 +8,14 @@
 namespace pbf {
 namespace {
 
-/// Largest |Σ w μ| of a particle, in squared spacings.
-constexpr Real kMostPush = 0.5F;
+/// Largest |Λ| before and largest |δ| together, in squared spacings.
+constexpr Real kMostPush = 1;
 
 struct Largest {
-  Real value = 0;
+  Real before = 0, added = 0;
   Largest& operator+=(const Largest& other) {
-    value = std::max(value, other.value);
+    before = std::max(before, other.before);
+    added = std::max(added, other.added);
     return *this;
   }
 };
@@ -100,10 +101,12 @@ void CoarseLevel::correct(const Neighborhood& near,
       for (std::size_t c = 0; c < kCorners; ++c) x_mu[i].w += hats.w[c] * mu[c];
     }
   });
-  const auto largest = parallel_sum<Largest>(states.size(), threads,
-                                             [&](Index i) { return Largest{std::abs(x_mu[i].w)}; });
-  const Real most = kMostPush * disc.fluid.spacing * disc.fluid.spacing;
-  const Real share = largest.value > most ? most / largest.value : 1;
+  const auto largest = parallel_sum<Largest>(states.size(), threads, [&](Index i) {
+    return Largest{-states[i].x, std::abs(x_mu[i].w)};
+  });
+  const Real push = kMostPush * disc.fluid.spacing * disc.fluid.spacing;
+  const Real most = std::max(push - largest.before, Real(0));
+  const Real share = largest.added > most ? most / largest.added : 1;
   parallel_for(states.size(), threads, [&](Index i) {
     const Real total = std::min(states[i].x + share * x_mu[i].w, Real(0));
     x_delta[i].w += total - states[i].x;

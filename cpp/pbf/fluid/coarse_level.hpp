@@ -21,8 +21,8 @@ namespace pbf {
 /// is approximate here: its corrections are the antisymmetric ones of every iteration.
 ///
 /// All this counts on gradients that stay as they are. Deep water in long steps is pushed farther
-/// than they hold, and would explode: all δ are scaled down until the largest is half a squared
-/// spacing.
+/// than they hold, and would explode: all δ are scaled down until the largest of them and the
+/// largest |Λ| before come to no more than a squared spacing.
 class CoarseLevel {
  public:
   /// Adds δ to the multipliers of the states (Λ, y, r, ·), y = Λ, and to those of (x*, δ).
