@@ -120,7 +120,9 @@ def test_the_step_is_one_over_the_largest_eigenvalue_of_the_lattice() -> None:
         fluid = ref.Fluid(spacing=D, support_radius=ratio * D, kernel=kernel)
         simulation = pbf.Simulation(
             pbf.FluidParams(spacing=D, support_radius=ratio * D, kernel=kernel, gravity=(0, 0, 0)),
-            pbf.SolverParams(method="pressure", iterations=1, relaxation=0.0, tensile_strength=0.0),
+            pbf.SolverParams(
+                method="pressure", iterations=1, levels=1, relaxation=0.0, tensile_strength=0.0
+            ),
         )
         # Two particles close together: C, its gradients and so the multiplier in closed form.
         simulation.add_particles([[0, 0, 0], [0.1 * D, 0, 0]])
@@ -163,6 +165,18 @@ def test_a_column_comes_to_rest_under_its_hydrostatic_pressure() -> None:
     slope, bottom = np.polyfit(y, p, 1)
     assert slope == pytest.approx(-1000 * G, rel=0.1)
     assert bottom == pytest.approx(1000 * G * top, rel=0.1)
+
+
+def test_with_two_levels_a_few_counted_iterations_hold_a_column() -> None:
+    def density(levels: int) -> float:
+        simulation = column_after(
+            1.0, pbf.SolverParams(method="pressure", iterations=2, levels=levels)
+        )
+        inside = simulation.positions[:, 1] < 16 * D
+        return float(np.mean(simulation.densities[inside])) / 1000
+
+    assert density(2) == pytest.approx(1, abs=0.002)
+    assert density(1) > 1.02
 
 
 def test_with_compliance_the_settled_density_is_that_of_the_pressure() -> None:
