@@ -20,6 +20,10 @@ namespace pbf {
 /// it back; without this the coarse level would know of no floor. The fluid feels nothing of what
 /// is approximate here: its corrections are the antisymmetric ones of every iteration.
 ///
+/// Only for fluid that has walls to stand on. Elsewhere nothing is deep, a grid that stands still
+/// would make drops depend on where they are, and fluid that fills a periodic box can be under any
+/// constant pressure.
+///
 /// All this counts on gradients that stay as they are. Deep water in long steps is pushed farther
 /// than they hold, and would explode: all δ are scaled down until the largest of them and the
 /// largest |Λ| before come to no more than a squared spacing.

@@ -150,7 +150,7 @@ struct SolverParams {
         Field{"levels", &SolverParams::levels, "", between(1, 2),
               "2: in the first iteration of a step, a grid of cells six spacings wide solves for "
               "what is wrong over the height of the water, so that few iterations hold deep water. "
-              "1: particles only. Pressure method."},
+              "1: particles only, as in space without walls. Pressure method."},
         Field{"acceleration", &SolverParams::acceleration, "", anything(),
               "nesterov: iterations gather momentum, and need the root of the number that none "
               "needs. Pressure method."},

@@ -207,7 +207,7 @@ class SolverParams:
     @property
     def levels(self) -> int:
         """
-        2: in the first iteration of a step, a grid of cells six spacings wide solves for what is wrong over the height of the water, so that few iterations hold deep water. 1: particles only. Pressure method.
+        2: in the first iteration of a step, a grid of cells six spacings wide solves for what is wrong over the height of the water, so that few iterations hold deep water. 1: particles only, as in space without walls. Pressure method.
         """
     @levels.setter
     def levels(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
