@@ -60,9 +60,9 @@ def solve_pressures(
     y_i'     = total_i' + beta (total_i' - total_i)          beta = (t - 1) / t'
     t'       = (1 + sqrt(1 + 4 t^2)) / 2, and 1 again where sum D (y - total') (total' - total) > 0
 
-    With two levels and walls total' and y' of the first iteration have the coarse correction added. x* moves
-    by the corrections of y' - y. Ends when the mean of max(r, 0) is within the tolerance,
-    after at least `min_iterations`.
+    With two levels and walls total' and y' of the first iteration have the coarse correction
+    added. x* moves by the corrections of y' - y. Ends when the mean of max(r, 0) is within the
+    tolerance, after at least `min_iterations`.
     """
     _, ideal_denominator = calibration(fluid)
     omega = 1.0 / largest_eigenvalue(fluid)
