@@ -73,7 +73,7 @@ class Way:
 
 def pressure(**changes: Any) -> Way:
     kernel = changes.pop("kernel", None)
-    return Way(pbf.SolverParams(method="pressure", **changes), kernel)
+    return Way(pbf.SolverParams(method="pressure", **{"levels": 1, **changes}), kernel)
 
 
 def plain(iterations: int, **changes: Any) -> Way:
@@ -89,6 +89,7 @@ ONE_STEP = {
     "pressure, cold": pressure(warm_start=0.0),
     "pressure, warm 0.25": pressure(warm_start=0.25),
     "pressure, warm 0.5": pressure(warm_start=0.5),
+    "pressure, warm 0.25, two levels": pressure(warm_start=0.25, levels=2),
     "pressure, warm 0.5, cubic spline": pressure(warm_start=0.5, kernel="cubic_spline"),
     "pressure, warm 0.5, poly6 and spiky": pressure(warm_start=0.5, kernel="poly6_spiky"),
 }
@@ -105,6 +106,7 @@ RUNS = {
     "pressure, warm 0.25": pressure(warm_start=0.25, max_iterations=300),
     "pressure, warm 0.5": pressure(warm_start=0.5, max_iterations=300),
     "pressure, warm 0.8": pressure(warm_start=0.8, max_iterations=300),
+    "pressure, warm 0.25, two levels": pressure(warm_start=0.25, levels=2, max_iterations=300),
 }
 
 KERNELS = {
@@ -112,7 +114,8 @@ KERNELS = {
     "plain, 4 iterations, wendland": plain(4, kernel="wendland"),
     "pressure, poly6 and spiky": pressure(kernel="poly6_spiky"),
     "pressure, cubic spline": pressure(kernel="cubic_spline"),
-    "pressure, wendland (default)": pressure(),
+    "pressure, wendland": pressure(),
+    "pressure, wendland, two levels (default)": pressure(levels=2),
 }
 SHARES = (0, 0.25, 0.5, 0.8, 0.95, 1)
 WARMTH = {f"warm_start = {share:g}": pressure(warm_start=share) for share in SHARES}

@@ -34,7 +34,9 @@ def tank(solver: pbf.SolverParams, **fluid: object) -> pbf.Simulation:
         pbf.SolverParams(),
         pbf.SolverParams(tolerance=1e-4, max_tolerance=2e-3, warm_start=0.8),
         pbf.SolverParams(compliance=1e-3, constraint_floor=0.0, tensile_strength=0.0),
-        pbf.SolverParams(method="pressure", iterations=6, acceleration="none", vorticity=0.01),
+        pbf.SolverParams(
+            method="pressure", iterations=6, levels=1, acceleration="none", vorticity=0.01
+        ),
         pbf.SolverParams(max_iterations=3, constraint_floor=-np.inf),
     ],
     ids=["defaults", "tight", "soft", "counted", "capped, two-sided"],
@@ -81,12 +83,46 @@ def test_one_step_agrees_to_rounding() -> None:
     )
 
 
+@pytest.mark.parametrize("compliance", [0.0, 1e-3], ids=["stiff", "soft"])
+@pytest.mark.parametrize(
+    ("periodic", "dimensions"),
+    [((False, False, False), 3), ((True, False, True), 3), ((False, False, False), 2)],
+    ids=["walls", "periodic", "2-D"],
+)
+def test_the_coarse_level_agrees_with_the_reference(
+    periodic: tuple[bool, bool, bool], dimensions: int, compliance: float
+) -> None:
+    """A column that the floor stops: seven cells and a half of the grid in one step."""
+    fluid_params = pbf.FluidParams(spacing=D, gravity=(0, -G, 0), dimensions=dimensions)
+    solver = pbf.SolverParams(method="pressure", iterations=1, compliance=compliance, xsph=0.0)
+    box = pbf.Box((0, 0, 0), (13 * D, 30 * D, 7 * D), periodic=periodic)
+    x = jittered_block((13, 20, 7 if dimensions == 3 else 1), D, seed=45, share=0.1)
+    x[:, 1] *= 0.99
+    if dimensions == 2:
+        x[:, 2] = 0.0
+    positions, totals = {}, {}
+    for levels in (1, 2):
+        simulation = pbf.Simulation(fluid_params, solver.replace(levels=levels), domain=box)
+        simulation.add_particles(x)
+        fluid, terms = ref.Fluid.of(simulation.fluid), ref.Solver.of(simulation.solver)
+        state = ref.State.at(simulation.positions, simulation.velocities)
+        simulation.step(DT)
+        positions[levels] = simulation.positions
+        totals[levels] = simulation.pressures.max()
+        expected = ref.step(state, fluid, terms, ref.Box.of(box), DT)
+        np.testing.assert_allclose(simulation.positions, expected.x, rtol=0, atol=1e-4 * D)
+    assert np.abs(positions[2] - positions[1]).max() > 1e-2 * D
+    assert totals[2] > 2 * totals[1]
+
+
 def test_the_step_is_one_over_the_largest_eigenvalue_of_the_lattice() -> None:
     for kernel, ratio in [("poly6_spiky", 2.0), ("cubic_spline", 1.5), ("wendland", 2.5)]:
         fluid = ref.Fluid(spacing=D, support_radius=ratio * D, kernel=kernel)
         simulation = pbf.Simulation(
             pbf.FluidParams(spacing=D, support_radius=ratio * D, kernel=kernel, gravity=(0, 0, 0)),
-            pbf.SolverParams(method="pressure", iterations=1, relaxation=0.0, tensile_strength=0.0),
+            pbf.SolverParams(
+                method="pressure", iterations=1, levels=1, relaxation=0.0, tensile_strength=0.0
+            ),
         )
         # Two particles close together: C, its gradients and so the multiplier in closed form.
         simulation.add_particles([[0, 0, 0], [0.1 * D, 0, 0]])
@@ -129,6 +165,18 @@ def test_a_column_comes_to_rest_under_its_hydrostatic_pressure() -> None:
     slope, bottom = np.polyfit(y, p, 1)
     assert slope == pytest.approx(-1000 * G, rel=0.1)
     assert bottom == pytest.approx(1000 * G * top, rel=0.1)
+
+
+def test_with_two_levels_a_few_counted_iterations_hold_a_column() -> None:
+    def density(levels: int) -> float:
+        simulation = column_after(
+            1.0, pbf.SolverParams(method="pressure", iterations=2, levels=levels)
+        )
+        inside = simulation.positions[:, 1] < 16 * D
+        return float(np.mean(simulation.densities[inside])) / 1000
+
+    assert density(2) == pytest.approx(1, abs=0.002)
+    assert density(1) > 1.02
 
 
 def test_with_compliance_the_settled_density_is_that_of_the_pressure() -> None:

@@ -80,6 +80,7 @@ class Solver:
     max_tolerance: float = math.inf
     compliance: float = 0.0
     warm_start: float = 0.25
+    levels: int = 2
     acceleration: str = "nesterov"
     relaxation: float = 0.01
     constraint_floor: float | None = -math.inf

@@ -8,8 +8,9 @@ import math
 
 import numpy as np
 
-from reference.boundary import centers, project
+from reference.boundary import centers, project, walled
 from reference.calibration import calibration, lattice
+from reference.coarse import coarse_correction
 from reference.density import corrections, density_constraint
 from reference.kernels import kernel
 from reference.neighbors import Neighbors
@@ -59,8 +60,9 @@ def solve_pressures(
     y_i'     = total_i' + beta (total_i' - total_i)          beta = (t - 1) / t'
     t'       = (1 + sqrt(1 + 4 t^2)) / 2, and 1 again where sum D (y - total') (total' - total) > 0
 
-    x* moves by the corrections of y' - y. Ends when the mean of max(r, 0) is within the tolerance,
-    after at least `min_iterations`.
+    With two levels and walls total' and y' of the first iteration have the coarse correction
+    added. x* moves by the corrections of y' - y. Ends when the mean of max(r, 0) is within the
+    tolerance, after at least `min_iterations`.
     """
     _, ideal_denominator = calibration(fluid)
     omega = 1.0 / largest_eigenvalue(fluid)
@@ -87,6 +89,11 @@ def solve_pressures(
         beta = (t - 1.0) / next_t if solver.acceleration == "nesterov" else 0.0
         next_y = next_total + beta * (next_total - total)
         uphill = np.sum(D * (y - next_total) * (next_total - total)) > 0.0
+        walls = box is not None and np.isfinite(walled(fluid, box).lower).any()
+        if solver.levels > 1 and walls and iterations == 0:
+            next_total = next_y = next_total + coarse_correction(
+                x_star, next_total, r, near, fluid, box, alpha
+            )
         x_star = moved(x_star, next_y - y, without_repulsion)
         total, y, t = next_total, next_y, 1.0 if uphill else next_t
         iterations += 1

@@ -29,6 +29,11 @@ struct Discretization {
   /// particle or than two support radii along a periodic axis.
   explicit Discretization(const FluidParams& params, const std::optional<Box>& box = {});
 
+  /// Whether there is a wall along any axis.
+  [[nodiscard]] bool has_walls() const {
+    return centers &&
+           (centers->lower.array().isFinite() || centers->upper.array().isFinite()).any();
+  }
   /// Whether a particle may be at x. In 2-D the plane may lie anywhere along z.
   [[nodiscard]] bool contains(const Vec3& x) const {
     return !domain || domain->open_along({false, false, fluid.dimensions == 2}).contains(x);

@@ -84,6 +84,7 @@ struct SolverParams {
   std::optional<Real> max_tolerance = std::nullopt;
   Real compliance = 0.0F;
   Real warm_start = 0.25F;
+  int levels = 2;
   Acceleration acceleration = Acceleration::nesterov;
   int substeps = 4;
   TimeStep time_step = TimeStep::fixed;
@@ -146,6 +147,10 @@ struct SolverParams {
               "Share of the last time step's pressure that the iterations start from. More needs "
               "fewer iterations in calm water; near 1 errors live on and waves build up. Pressure "
               "method."},
+        Field{"levels", &SolverParams::levels, "", between(1, 2),
+              "2: in the first iteration of a step, a grid of cells six spacings wide solves for "
+              "what is wrong over the height of the water, so that few iterations hold deep water. "
+              "1: particles only, as in space without walls. Pressure method."},
         Field{"acceleration", &SolverParams::acceleration, "", anything(),
               "nesterov: iterations gather momentum, and need the root of the number that none "
               "needs. Pressure method."},

@@ -85,4 +85,14 @@ PressureErrors PressureSolve::iterate(const Neighborhood& near,
   return errors;
 }
 
+void PressureSolve::correct_coarse(const Neighborhood& near,
+                                   const Discretization& disc,
+                                   const SolverParams& solver,
+                                   Real dt,
+                                   const Records& x_star,
+                                   Records& x_delta) {
+  coarse_.correct(near, disc, solver.compliance / (dt * dt), solver.num_threads, x_star, states_,
+                  x_delta);
+}
+
 }  // namespace pbf

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pbf/fluid/discretization.hpp"
+#include "pbf/fluid/coarse_level.hpp"
 
 #include <vector>
 
@@ -74,13 +74,22 @@ class PressureSolve {
                          const Records& x_star,
                          Records& x_delta);
 
+  /// Adds the coarse level's corrections to those of the first iteration.
+  void correct_coarse(const Neighborhood& near,
+                      const Discretization& disc,
+                      const SolverParams& solver,
+                      Real dt,
+                      const Records& x_star,
+                      Records& x_delta);
+
   [[nodiscard]] std::size_t bytes() const {
-    return static_cast<std::size_t>(states_.size()) * sizeof(Record);
+    return static_cast<std::size_t>(states_.size()) * sizeof(Record) + coarse_.bytes();
   }
 
  private:
   Records states_;  // (Λ, y, r, what it adds to uphill)
   double t_ = 1;    // of Nesterov's sequence
+  CoarseLevel coarse_;
 };
 
 }  // namespace pbf

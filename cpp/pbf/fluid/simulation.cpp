@@ -217,6 +217,9 @@ void Simulation::iterate_pressure(Real dt, StepReport& report) {
           pressure_.iterate(near_, disc_, solver_, dt, x_star_, x_lambda_);
       const bool good = errors.sum <= enough && errors.max <= worst;
       if (good && !solver_.iterations && report.iterations >= solver_.min_iterations) return;
+      if (solver_.levels > 1 && disc_.has_walls() && report.iterations == 0) {
+        pressure_.correct_coarse(near_, disc_, solver_, dt, x_star_, x_lambda_);
+      }
     }
     {
       const auto t = report.time(Stage::corrections);

@@ -7,6 +7,8 @@
 #include "pbf/kernels/wendland.hpp"
 #include "pbf/neighbors/sliced_rows.hpp"
 
+#include <array>
+
 namespace pbf {
 
 /// A stretch of particles and what is near them: what a sweep works through.
@@ -31,6 +33,13 @@ struct PressureTerms {
   Real compliance;  ///< α̃ = α/Δt² [1/m²]
   Real step;        ///< ω [–]
   Real momentum;    ///< β [–]
+};
+
+/// How the particles of a stretch move with the coarse level's multipliers
+/// (fluid/coarse_level.hpp): (B_i, g_i), row by row, and room for whole vectors.
+struct CoarseMotions {
+  static constexpr std::size_t kRows = static_cast<std::size_t>(kChunk + kMostLanes);
+  std::array<Record, kRows> x, y, z;
 };
 
 /// Where particle centers may be.
@@ -68,6 +77,11 @@ struct Sweeps {
                       Record* u);
   /// (·, sum of the virial) from (x, p̂)
   void (*virials)(const Kernel& VW, const Stretch& at, const Record* x_p, Record* virial);
+  /// (B, g) from (x*, a)
+  void (*coarse_motions)(const Kernel& VW,
+                         const Stretch& at,
+                         const Record* x_pressed,
+                         CoarseMotions& motions);
   /// (·, ρ/ρ0) from x
   void (*densities)(const Kernel& VW, const Stretch& at, const Record* x, Record* density);
   /// (v, ρ/ρ0) from x and v

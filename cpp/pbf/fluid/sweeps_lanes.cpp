@@ -1,4 +1,5 @@
 // Compiled once per instruction set (cpp/CMakeLists.txt).
+#include "pbf/fluid/coarse_lanes.hpp"
 #include "pbf/fluid/density_constraint_lanes.hpp"
 #include "pbf/fluid/vorticity_lanes.hpp"
 #include "pbf/fluid/xsph_lanes.hpp"
@@ -7,9 +8,9 @@ namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
 
 template <class Kernel>
-constexpr Sweeps<Kernel> kSweeps{multipliers<Kernel>, pressures<Kernel>,  corrections<Kernel>,
-                                 virials<Kernel>,     densities<Kernel>,  xsph<Kernel>,
-                                 vorticity<Kernel>,   confinement<Kernel>};
+constexpr Sweeps<Kernel> kSweeps{multipliers<Kernel>, pressures<Kernel>,      corrections<Kernel>,
+                                 virials<Kernel>,     coarse_motions<Kernel>, densities<Kernel>,
+                                 xsph<Kernel>,        vorticity<Kernel>,      confinement<Kernel>};
 
 }  // namespace
 

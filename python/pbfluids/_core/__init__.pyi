@@ -142,6 +142,7 @@ class SolverParams:
         max_tolerance: float | None = ...,
         compliance: float = ...,
         warm_start: float = ...,
+        levels: int = ...,
         acceleration: str = ...,
         substeps: int = ...,
         time_step: str = ...,
@@ -203,6 +204,13 @@ class SolverParams:
         """
     @iterations.setter
     def iterations(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
+    @property
+    def levels(self) -> int:
+        """
+        2: in the first iteration of a step, a grid of cells six spacings wide solves for what is wrong over the height of the water, so that few iterations hold deep water. 1: particles only, as in space without walls. Pressure method.
+        """
+    @levels.setter
+    def levels(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def max_iterations(self) -> int:
         """

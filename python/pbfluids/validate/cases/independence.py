@@ -21,11 +21,9 @@ its height twice their mean height, over the last half second, in percent of wha
 and 0.5 m, or with compliance *c* (5e-3 s²/m²) ρ0 exp(*c* g (H − y)), whose integral is the mass.
 
 **With a tolerance** the solver takes as many iterations as time step, resolution and depth ask for,
-and the density is that of the tolerance. **With counted iterations it is not**: a correction
-travels two support radii in an iteration, so a few cannot carry the weight of deep water, and what
-they leave depends on their number. Compliance does not help: it softens the goal, not the way
-there, and these columns are far from the goal. The marks are missed for that reason; who counts
-iterations gets the density that the count can hold."""
+and the density is that of the tolerance. **With counted iterations** it is the coarse level that
+carries the weight of the column: a correction travels two support radii in an iteration, and with
+`levels = 1` two, four and eight of them leave 4.5, 1.8 and 0.7 %."""
 
 
 def run(settings: Settings) -> Result:
