@@ -270,7 +270,7 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
     to.tiles.upload(maps_->tiles());
   });
   stage("normal", [&] {
-    passes_->normal(to.tiles, to.depth_smooth.texture, params.smoothing_range_in_force(),
+    passes_->normal(to.tiles, to.depth_smooth.texture, to.depth.texture, params,
                     to.normal.framebuffer);
   });
   return {to.tiles,
@@ -336,9 +336,8 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
                        to.thickness_smooth);
   });
-  stage("normal", [&] {
-    pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
-  });
+  stage("normal",
+        [&] { pass.normal(to.tiles, *depth, to.depth.texture, params, to.normal.framebuffer); });
   return {to.tiles,          *depth,           *thickness, to.back_smooth.texture,
           to.normal.texture, to.depth.texture, nullptr};
 }
