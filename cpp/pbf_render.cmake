@@ -24,6 +24,8 @@ add_library(pbf_render STATIC
   pbf/render/extent.cpp
   pbf/render/full_cells.cpp
   pbf/render/crowding.cpp
+  pbf/render/neighborhoods.cpp
+  pbf/render/anisotropy.cpp
   pbf/render/layer_filter.cpp
   pbf/render/sun_shadow.cpp
   pbf/render/flow_schedule.cpp
@@ -65,6 +67,7 @@ target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
 # The loops over particles and pixels.
 pbf_add_lanes(pbf_render
   pbf/render/crowding_lanes.cpp
+  pbf/render/anisotropy_lanes.cpp
   pbf/render/raster/splats_lanes.cpp
   pbf/render/raster/smooth_lanes.cpp
   pbf/render/raster/curvature_flow_lanes.cpp)
@@ -74,6 +77,7 @@ pbf_embed_glsl(pbf_render
   sphere_outline.glsl
   sprite.vert
   sphere_hit.glsl
+  sprite_hit.glsl
   sphere_depth.frag
   thickness.frag
   back_depth.frag

@@ -1,7 +1,10 @@
-// normal.frag: in: smoothed affine depth. Out: unit normal in eye space, towards the viewer; 0
-// without fluid.
+// normal.frag: in: smoothed affine depth, and that of the spheres with their crowding. Out: unit
+// normal in eye space, towards the viewer; 0 without fluid.
 uniform sampler2D u_values;
-uniform float u_range;  // a step of depth that is higher is between two surfaces [m]
+uniform sampler2D u_spheres;
+uniform float u_range;        // a step of depth that is higher is between two surfaces [m]
+uniform float u_radius;       // of a sphere in a body of fluid [m]
+uniform float u_drop_radius;  // of one alone [m]
 layout(location = 0) out vec4 o_normal;
 
 vec3 position(ivec2 pixel, out bool exists) {
@@ -11,22 +14,45 @@ vec3 position(ivec2 pixel, out bool exists) {
   return eye_position(vec2(pixel) + 0.5, depth_of(exists ? a : affine_depth(1.0)));
 }
 
-// Tangent along an axis from differences of positions to both sides, each weighted by 1/(dz^2 +
-// pixel^2)^2. Both are tangent to a plane, so the normal of a plane is exact; on a gentle slope
-// they count the same, which is the central difference; at a silhouette the smaller step wins.
+// The surface along an axis of the picture.
+struct Tangent {
+  vec3 along;  // towards the next pixel
+  vec3 step;   // from the pixel to the neighbor of the smaller step of depth
+  bool ends;   // there is no surface on one of the sides, or only another one
+  bool lone;   // on neither
+};
+
+// From differences of positions to both sides, each weighted by 1/(dz^2 + pixel^2)^2. Both are
+// tangent to a plane, so the normal of a plane is exact; on a gentle slope they count the same,
+// which is the central difference; at a silhouette the smaller step wins.
 // A strand or a groove of a single pixel faces the viewer: the smaller of its two steps is no slope
 // of its own, and would be a speck that mirrors everything.
-vec3 tangent(ivec2 pixel, ivec2 axis, vec3 p, float width) {
+// @param reach  a step of depth that is higher leads to another sphere [m]
+Tangent tangent(ivec2 pixel, ivec2 axis, vec3 p, float width, float reach) {
   bool has_next, has_previous;
   vec3 next = position(pixel + axis, has_next) - p;
   vec3 previous = p - position(pixel - axis, has_previous);
   float floor2 = width * width;
   float w_next = has_next ? 1.0 / (next.z * next.z + floor2) : 0.0;
   float w_previous = has_previous ? 1.0 / (previous.z * previous.z + floor2) : 0.0;
-  bool lone = has_next == has_previous && next.z * previous.z <= 0.0 &&
-              min(abs(next.z), abs(previous.z)) > u_range;
-  if (lone || (!has_next && !has_previous)) return vec3(axis, 0.0);
-  return w_next * w_next * next + w_previous * w_previous * previous;
+  bool strand = has_next == has_previous && next.z * previous.z <= 0.0 &&
+                min(abs(next.z), abs(previous.z)) > u_range;
+  bool on_next = has_next && abs(next.z) < reach;
+  bool on_previous = has_previous && abs(previous.z) < reach;
+  vec3 sum = w_next * w_next * next + w_previous * w_previous * previous;
+  bool faces = strand || (!has_next && !has_previous);
+  return Tangent(faces ? vec3(axis, 0.0) : sum, w_next > w_previous ? next : -previous,
+                 !(on_next && on_previous), !(on_next || on_previous));
+}
+
+// Normal of the sphere of a radius through a point and two more, at steps a and b from it: their
+// circle's center lies at c, the sphere's behind it as seen along `view`. 0 if there is none.
+vec3 sphere_normal(vec3 a, vec3 b, vec3 view, float radius) {
+  vec3 across = cross(a, b);
+  vec3 c = cross(dot(a, a) * b - dot(b, b) * a, across) / (2.0 * dot(across, across));
+  float height2 = radius * radius - dot(c, c);
+  vec3 n = -sign(dot(across, view)) * normalize(across);
+  return height2 > 0.0 ? (sqrt(height2) * n - c) / radius : vec3(0.0);
 }
 
 void main() {
@@ -36,7 +62,17 @@ void main() {
   o_normal = vec4(0.0);
   if (!exists) return;
   float width = 1.0 / pixels_per_meter(-p.z);  // of a pixel [m]
-  vec3 x = normalize(tangent(pixel, ivec2(1, 0), p, width));
-  vec3 y = normalize(tangent(pixel, ivec2(0, 1), p, width));
-  o_normal = vec4(normalize(cross(x, y)), 0.0);
+  float crowding = crowding_of(texelFetch(u_spheres, pixel, 0).r);
+  float radius = mix(u_drop_radius, u_radius, crowding);
+  Tangent x = tangent(pixel, ivec2(1, 0), p, width, radius);
+  Tangent y = tangent(pixel, ivec2(0, 1), p, width, radius);
+  vec3 n = normalize(cross(normalize(x.along), normalize(y.along)));
+  // At the outline of a drop a difference to one side is that of half a pixel farther in, where it
+  // is less steep. The drop is a sphere.
+  if (crowding < 1.0 && (x.ends || y.ends) && !x.lone && !y.lone) {
+    vec3 view = ray_direction(gl_FragCoord.xy);
+    vec3 own = sphere_normal(x.step, y.step, view, radius);
+    n = dot(own, view) < 0.0 ? own : n;
+  }
+  o_normal = vec4(n, 0.0);
 }

@@ -1,7 +1,6 @@
-// sphere_depth.frag: in: sphere. Out: affine depth of its front with its crowding, for MAX
+// sphere_depth.frag: in: sprite. Out: affine depth of its front with its crowding, for MAX
 // blending. With ALL also thickness, for ADD blending, and affine depth of its far side, for MIN
 // blending: the pass of all where a driver blends each target in its own way (OpenGL 4.0).
-flat in vec4 v_sphere;  // center in eye space and radius [m]
 flat in float v_crowding;
 layout(location = 0) out float o_depth;
 #ifdef ALL
@@ -11,7 +10,7 @@ layout(location = 2) out float o_back;
 #endif
 
 void main() {
-  Hit hit = hit_sphere(gl_FragCoord.xy, v_sphere.xyz, v_sphere.w);
+  Hit hit = hit_sprite(gl_FragCoord.xy);
   bool seen = hit.chord > 0.0 && hit.front >= u_lens.z;
   // No discard: neutral values of the blending cost less.
   o_depth = seen ? with_crowding(affine_depth(hit.front), v_crowding) : NOTHING;

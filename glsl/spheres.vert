@@ -41,7 +41,7 @@ void main() {
   gl_Position = vec4(0.5 * (box.xy + box.zw), 0.0, 1.0);
   gl_PointSize = max(max(size.x, size.y), 1.0);
 #else
-  gl_Position = outline_corner(center, u_radius);
+  gl_Position = box_corner(outline(center, u_radius));
 #endif
 #ifdef TINT
   if (is_deep(center, outline(center, u_radius))) gl_Position = vec4(2.0, 2.0, 0.0, 1.0);

@@ -1,5 +1,6 @@
-/// The passes of a frame, in C++ (cpp) and as shaders (glsl): milliseconds of each, and how much
-/// work there was. The same dam break, in the same picture, of few and of many particles.
+/// The passes of a frame, in C++ (cpp), with ellipsoids, and as shaders (glsl): milliseconds of
+/// each, and how much work there was. The same dam break, in the same picture, of few and of many
+/// particles.
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/fluid_renderer.hpp"
 
@@ -72,11 +73,12 @@ double taps(const Layers& layers, Real radius, double pixels_per_slope) {
   return sum;
 }
 
-void draw(benchmark::State& state, SurfacePasses passes) {
+void draw(benchmark::State& state, SurfacePasses passes, Real anisotropy) {
   const Cloud& of = cloud(state.range(0));
   const auto height = static_cast<int>(state.range(1));
   FluidRenderer renderer(height * 16 / 9, height, "", passes);
-  const RenderParams drawn = params(of.spacing);
+  RenderParams drawn = params(of.spacing);
+  drawn.anisotropy = anisotropy;
   const Layers layers = renderer.layers(of.positions, camera(), drawn);
   renderer.render(of.positions, camera(), drawn);  // allocates
   renderer.set_timed(true);
@@ -110,8 +112,9 @@ void frames(benchmark::internal::Benchmark* benchmark) {
       ->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(draw, cpp, SurfacePasses::cpp)->Apply(frames);
-BENCHMARK_CAPTURE(draw, glsl, SurfacePasses::glsl)->Apply(frames);
+BENCHMARK_CAPTURE(draw, cpp, SurfacePasses::cpp, 0)->Apply(frames);
+BENCHMARK_CAPTURE(draw, cpp_ellipsoids, SurfacePasses::cpp, 1)->Apply(frames);
+BENCHMARK_CAPTURE(draw, glsl, SurfacePasses::glsl, 0)->Apply(frames);
 
 }  // namespace
 }  // namespace pbf::bench

@@ -206,6 +206,22 @@ def iterations() -> Table:
     return rows
 
 
+def shapes() -> Table:
+    """Errors with spheres and with ellipsoids, without any filter and after it."""
+    view = camera()
+    rows: Table = {}
+    with pbf.Renderer(*SIZE) as renderer:
+        for name, of in SURFACES.items():
+            surface = of()
+            rows[name] = {}
+            for anisotropy in (0.0, 1.0):
+                for count in (0, 1, 2):
+                    chosen = params("bilateral", anisotropy=anisotropy, smoothing_iterations=count)
+                    layers = renderer.layers(surface.particles, view, chosen)
+                    rows[name][f"{anisotropy:g}/{count}"] = errors(layers, surface, view)
+    return rows
+
+
 def times(turns: int = 7) -> Table:
     """Milliseconds that the processors work on the filter at 1280 x 720, in turns.
 
@@ -276,7 +292,7 @@ def on_picture(point: Array, view: pbf.Camera) -> Array:
 def measure() -> Table:
     start = time.perf_counter()
     results: Table = {"commit": commit(), "processor": processor()}
-    for part in (times, accuracy, resolutions, iterations, separation):
+    for part in (times, accuracy, shapes, resolutions, iterations, separation):
         results[part.__name__] = part()
         print(f"{time.perf_counter() - start:6.0f} s  {part.__name__}", flush=True)
     return results
@@ -292,6 +308,23 @@ def draw_pictures(folder: Path) -> None:
             axis.set(title=kind)
             axis.axis("off")
     save(figure, folder / "filters.png")
+
+
+def draw_shapes(folder: Path) -> None:
+    """A breaking wave from near, of spheres and of ellipsoids."""
+    scene = pbf.Scene.builtin("dam_break")
+    *_, frame = scene.frames(79)
+    view = pbf.Camera(eye=(1.6, 0.6, 1.0), target=(1.05, 0.25, 0.2), fov_y=40)
+    chosen = scene.render_params
+    figure, axes = panels(2)
+    figure.set_size_inches(17, 5)
+    with pbf.Renderer(1280, 720) as renderer:
+        for axis, anisotropy in zip(axes, (0.0, 1.0), strict=True):
+            chosen.anisotropy = anisotropy
+            axis.imshow(renderer.render(frame.positions, view, chosen))
+            axis.set(title=f"anisotropy = {anisotropy:g}")
+            axis.axis("off")
+    save(figure, folder / "ellipsoids.png")
 
 
 def draw_normals(folder: Path) -> None:
@@ -346,6 +379,12 @@ def summary(results: Table) -> str:
     for label, row in results["accuracy"].items():
         cells = [f"{row[k]['angle']:.1f}° / {row[k]['rough']:.3f}" for k in ["none", *FILTERS]]
         lines.append(f"| {label} | " + " | ".join(cells) + " |")
+    lines += ["", "| surface, anisotropy / iterations | angle | rough | offset |"]
+    lines.append("|---|---|---|---|")
+    for label, row in results["shapes"].items():
+        for name, error in row.items():
+            numbers = f"{error['angle']:.1f}° | {error['rough']:.3f} | {error['offset']:+.2f}"
+            lines.append(f"| {label}, {name} | {numbers} |")
     ms = results["times"]["milliseconds"]
     lines.append(
         "| processor time at 1280×720 [ms] | | "
@@ -363,6 +402,7 @@ def main() -> None:
     results, images = results_of(__doc__, "smoothing", measure)
     draw_errors(results, images)
     draw_pictures(images)
+    draw_shapes(images)
     draw_normals(images)
     print(summary(results))
     print({key: results["times"][key] for key in ("fluid", "particles")})

@@ -25,9 +25,9 @@ TEST_CASE("back_depth: the far side of the farthest sphere, by shaders and in C+
     sprites.upload(particles(centers));
     const Texture alone(width, height, Format::r32f), together(width, height, Format::r32f);
     const Texture depth(width, height, Format::r32f), thickness(width, height, Format::r32f);
-    const BackDepth pass(glsl_source);
+    BackDepth pass(glsl_source);
     pass(sprites, params, Framebuffer({&alone}));
-    const SphereDepth all(glsl_source, true);
+    SphereDepth all(glsl_source, true);
     all(sprites, params, Framebuffer({&depth, &thickness, &together}));
     const std::vector<float> result = gl.read(alone);
     CHECK(result == gl.read(together));

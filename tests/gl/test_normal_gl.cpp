@@ -6,6 +6,10 @@
 using namespace pbf;
 using namespace pbf::test;
 
+namespace {
+const RenderParams kParams{.smoothing_range = 0.1F};
+}
+
 TEST_CASE("normal: of a tilted plane within 0.1 degrees, at any field of view, border included") {
   for (const float fov : {20.0F, 60.0F, 100.0F}) {
     for (const double tilt : {0.0, 0.5, 1.0}) {
@@ -18,7 +22,8 @@ TEST_CASE("normal: of a tilted plane within 0.1 degrees, at any field of view, b
       const Texture depth =
           gl.texture([&](int, int y) { return slope(y) > 0.05 ? slope(y) / 3 : double{kNothing}; });
       const Texture result(gl.width(), gl.height(), Format::rgba32f);
-      pass(gl.tiles(), depth, 0.1F, Framebuffer({&result}));
+      const Texture body = gl.texture([](int, int) { return 0.5; });
+      pass(gl.tiles(), depth, body, kParams, Framebuffer({&result}));
       const std::vector<float> normals = gl.read(result, 3);
       double worst = 0;
       for (int y = 0; y < gl.height(); ++y) {
@@ -39,16 +44,17 @@ TEST_CASE("normal: of a tilted plane within 0.1 degrees, at any field of view, b
 TEST_CASE("normal: takes the side that belongs to the surface, and faces the viewer when alone") {
   const GlFixture gl;
   const Normal pass(glsl_source);
+  const Texture body = gl.texture([](int, int) { return 0.5; });
   const Texture step = gl.texture([](int x, int) { return x < 32 ? 0.5 : 0.4; });
   const Texture result(gl.width(), gl.height(), Format::rgba32f);
-  pass(gl.tiles(), step, 0.1F, Framebuffer({&result}));
+  pass(gl.tiles(), step, body, kParams, Framebuffer({&result}));
   const std::vector<float> at_step = gl.read(result, 3);
   for (const int x : {31, 32}) {
     CHECK(at_step[3 * gl.at(x, 24) + 2] == doctest::Approx(1).epsilon(1e-4));
   }
   const Texture alone =
       gl.texture([](int x, int y) { return x == 5 && y == 5 ? 0.5 : double{kNothing}; });
-  pass(gl.tiles(), alone, 0.1F, Framebuffer({&result}));
+  pass(gl.tiles(), alone, body, kParams, Framebuffer({&result}));
   const std::vector<float> lone = gl.read(result, 3);
   CHECK(lone[3 * gl.at(5, 5) + 2] == 1.0F);
   CHECK(lone[3 * gl.at(6, 5) + 2] == 0.0F);
@@ -56,6 +62,6 @@ TEST_CASE("normal: takes the side that belongs to the surface, and faces the vie
   const Texture strand = gl.texture([](int x, int) {
     return 1 / (x < 32 ? 4.0 : x == 32 ? 2.0 : 2.5);
   });
-  pass(gl.tiles(), strand, 0.1F, Framebuffer({&result}));
+  pass(gl.tiles(), strand, body, kParams, Framebuffer({&result}));
   CHECK(gl.read(result, 3)[3 * gl.at(32, 24) + 2] == doctest::Approx(1).epsilon(1e-3));
 }

@@ -20,7 +20,7 @@ TEST_CASE("sphere_depth: the front of spheres on and off the axis, at any field 
     RenderParams params;
     params.radius = 0.4F * reach;
     const Texture depth(gl.width(), gl.height(), Format::r32f);
-    const SphereDepth pass(glsl_source, false);
+    SphereDepth pass(glsl_source, false);
     pass(sprites, params, Framebuffer({&depth}));
     const std::vector<float> result = gl.read(depth);
     int seen = 0;
@@ -62,7 +62,7 @@ TEST_CASE("sphere_depth: a drop has its own radius, and its depth says that it i
     Sprites sprites;
     sprites.upload(particles(Points(Vec3(0, 0, -2)), crowding));
     const Texture depth(gl.width(), gl.height(), Format::r32f);
-    const SphereDepth pass(glsl_source, false);
+    SphereDepth pass(glsl_source, false);
     pass(sprites, params, Framebuffer({&depth}));
     const std::vector<float> result = gl.read(depth);
     const double radius = 0.1 + 0.3 * crowding;

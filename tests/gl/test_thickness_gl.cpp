@@ -25,7 +25,7 @@ TEST_CASE("thickness: summed over a parallel view it is the fluid's volume, what
     params.radius = 0.03F * scale;
     params.particle_volume = 1e-4F;
     const Texture thickness(256, 256, Format::r32f);
-    const Thickness pass(glsl_source);
+    Thickness pass(glsl_source);
     pass(sprites, params, Framebuffer({&thickness}));
     const std::vector<float> result = gl.read(thickness);
     const double volume = std::accumulate(result.begin(), result.end(), 0.0) * pixel_area;
@@ -44,9 +44,9 @@ TEST_CASE("thickness: alone and together with the depth it is the same") {
   const Texture alone(gl.width(), gl.height(), Format::r32f);
   const Texture together(gl.width(), gl.height(), Format::r32f);
   const Texture depth(gl.width(), gl.height(), Format::r32f);
-  const Thickness pass(glsl_source);
+  Thickness pass(glsl_source);
   pass(sprites, params, Framebuffer({&alone}));
-  const SphereDepth both(glsl_source, true);
+  SphereDepth both(glsl_source, true);
   const Texture back(gl.width(), gl.height(), Format::r32f);
   both(sprites, params, Framebuffer({&depth, &together, &back}));
   CHECK(gl.read(alone) == gl.read(together));

@@ -71,6 +71,24 @@ def test_a_sphere_has_the_depth_chord_and_normal_of_a_sphere(any_renderer, fov, 
     assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 1.5  # of pixel-wide differences
 
 
+@pytest.mark.parametrize("pixels", [4, 12, 40])
+def test_at_its_outline_a_drop_has_the_normal_of_its_sphere(any_renderer, pixels):
+    camera = pbf.Camera(**ALONG_Z, fov_y=40)
+    center = np.float32([0.11, -0.07, -2.0]).astype(float)
+    radius = pixels * 2 * np.tan(np.radians(20)) / 60
+    params = pbf.RenderParams(radius=1.5 * radius, drop_radius=radius)
+    layers = any_renderer.layers([center], camera, params)
+    x, y = rays(camera)
+    depth = layers["depth"].astype(float)
+    normal = (np.stack([x, y, -np.ones_like(x)], axis=-1) * depth[..., None] - center) / radius
+    seen = np.pad(depth > 0, 1)
+    sides = [seen[1:-1, :-2], seen[1:-1, 2:], seen[:-2, 1:-1], seen[2:, 1:-1]]
+    outline = (depth > 0) & ~np.logical_and.reduce(sides)
+    assert outline.sum() > 4 * pixels
+    cosine = (layers["normal"] * normal).sum(axis=-1)[outline]
+    assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 0.5  # 18 by differences
+
+
 def test_a_sphere_in_parallel_view(any_renderer):
     camera = pbf.Camera(**ALONG_Z, orthographic=True, height=2.4)  # a pixel is 0.02 m
     layers = any_renderer.layers([[0.3, -0.2, -5]], camera, pbf.RenderParams(radius=0.4))

@@ -11,15 +11,19 @@ void Buffer::upload(const void* data, GLsizeiptr bytes) const {
   glBufferData(target_, bytes, data, GL_STREAM_DRAW);
 }
 
-void VertexArray::vertices(const Buffer& vectors, GLint components, GLuint attribute) const {
+void VertexArray::vertices(
+    const Buffer& vectors, GLint components, GLuint attribute, int which, int of) const {
   bind();
   vectors.bind();
   glEnableVertexAttribArray(attribute);
-  glVertexAttribPointer(attribute, components, GL_FLOAT, 0, 0, nullptr);
+  const std::intptr_t bytes = components * static_cast<std::intptr_t>(sizeof(float));
+  glVertexAttribPointer(attribute, components, GL_FLOAT, 0, static_cast<GLsizei>(of * bytes),
+                        reinterpret_cast<const void*>(which * bytes));
 }
 
-void VertexArray::instances(const Buffer& vectors, GLint components, GLuint attribute) const {
-  this->vertices(vectors, components, attribute);
+void VertexArray::instances(
+    const Buffer& vectors, GLint components, GLuint attribute, int which, int of) const {
+  this->vertices(vectors, components, attribute, which, of);
   glVertexAttribDivisor(attribute, 1);
 }
 

@@ -23,8 +23,11 @@ class Buffer {
 class VertexArray {
  public:
   VertexArray() = default;
-  void instances(const Buffer& vectors, GLint components, GLuint attribute) const;
-  void vertices(const Buffer& vectors, GLint components, GLuint attribute) const;
+  /// Of each `of` vectors side by side, number `which`.
+  void instances(
+      const Buffer& vectors, GLint components, GLuint attribute, int which = 0, int of = 1) const;
+  void vertices(
+      const Buffer& vectors, GLint components, GLuint attribute, int which = 0, int of = 1) const;
   void bind() const { glBindVertexArray(handle_.name()); }
 
  private:

@@ -37,8 +37,8 @@ Layers CpuRenderer::layers(const PointsView& positions,
   double milliseconds = 0;
   {
     const Stopwatch stopwatch(milliseconds);
-    layers.normal = raster::normal(maps_.depth_smooth(), maps_.tiles(), camera,
-                                   params.smoothing_range_in_force(), 0);
+    layers.normal =
+        raster::normal(maps_.depth_smooth(), maps_.depth(), maps_.tiles(), camera, params, 0);
   }
   if (timed_) report_.milliseconds.emplace_back("normal", milliseconds);
   return layers;

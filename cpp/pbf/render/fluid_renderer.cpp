@@ -1,5 +1,6 @@
 #include "pbf/render/fluid_renderer.hpp"
 
+#include "pbf/render/anisotropy.hpp"
 #include "pbf/render/checks.hpp"
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/frame_block.hpp"
@@ -96,6 +97,7 @@ struct FluidRenderer::Passes {
         curvature_flow(in_cpp ? nullptr : std::make_unique<CurvatureFlow>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
   Crowding crowding;
+  Anisotropy anisotropy;
   Sprites sprites;
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
@@ -270,7 +272,7 @@ Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
     to.tiles.upload(maps_->tiles());
   });
   stage("normal", [&] {
-    passes_->normal(to.tiles, to.depth_smooth.texture, params.smoothing_range_in_force(),
+    passes_->normal(to.tiles, to.depth_smooth.texture, to.depth.texture, params,
                     to.normal.framebuffer);
   });
   return {to.tiles,
@@ -291,9 +293,23 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
   stage("crowding",
         [&] { pass.crowding.find(positions, camera, params.crowding_distance(), params.radius); });
   const Real nearest = nearest_front(pass.crowding.shallow(), params.radius, frame, 0);
+  const Records& particles = pass.crowding.particles();
+  const bool stretched = params.anisotropy > 0;
+  if (stretched) {
+    stage("anisotropy", [&] {
+      pass.anisotropy.find(particles, particles.size(), camera.eye, params.shape_distance(),
+                           params.anisotropy);
+    });
+  }
   stage("upload", [&] {
-    pass.sprites.upload(pass.crowding.particles());
-    to.tiles.find(pass.crowding.shallow(), frame, params.radius);
+    if (stretched) {
+      const Records& centers = pass.anisotropy.centers();
+      pass.sprites.upload(centers, pass.anisotropy.stretches());
+      to.tiles.find(centers, pass.anisotropy.stretches(), frame, params.radius);
+    } else {
+      pass.sprites.upload(particles);
+      to.tiles.find(pass.crowding.shallow(), frame, params.radius);
+    }
   });
   if (pass.thickness == nullptr) {
     stage("sphere_depth",
@@ -336,9 +352,8 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
     thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
                        to.thickness_smooth);
   });
-  stage("normal", [&] {
-    pass.normal(to.tiles, *depth, params.smoothing_range_in_force(), to.normal.framebuffer);
-  });
+  stage("normal",
+        [&] { pass.normal(to.tiles, *depth, to.depth.texture, params, to.normal.framebuffer); });
   return {to.tiles,          *depth,           *thickness, to.back_smooth.texture,
           to.normal.texture, to.depth.texture, nullptr};
 }

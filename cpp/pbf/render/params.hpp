@@ -55,6 +55,7 @@ struct RenderParams {
   Real radius = 0.02F;
   std::optional<Real> drop_radius = std::nullopt;
   std::optional<Real> particle_volume = std::nullopt;
+  Real anisotropy = 0.0F;
   Smoothing smoothing = Smoothing::bilateral;
   std::optional<Real> smoothing_radius = std::nullopt;
   std::optional<Real> smoothing_range = std::nullopt;
@@ -90,6 +91,8 @@ struct RenderParams {
   [[nodiscard]] Real drop_radius_in_force() const { return drop_radius.value_or(radius); }
   /// How far drops and bodies are told apart by, 2.4 particle distances [m]; 0: drawn alike.
   [[nodiscard]] Real crowding_distance() const;
+  /// How far from a particle others have a say in its sprite's shape [m].
+  [[nodiscard]] Real shape_distance() const { return 2.5F * radius; }
   [[nodiscard]] Real volume_in_force() const;  ///< [m³]
   [[nodiscard]] Real sphere_radius_in_force() const { return sphere_radius.value_or(radius / 2); }
   [[nodiscard]] Vec3 tint_absorption() const {
@@ -139,6 +142,11 @@ struct RenderParams {
               "Volume that a particle adds to the thickness, the sprite's own if not given. With "
               "the cube of "
               "the particle distance, thickness is the length of the path through the fluid."},
+        Field{"anisotropy", &P::anisotropy, "", between(0, 1),
+              "How far sprites follow the fluid around them. 0: spheres. 1: ellipsoids, flat along "
+              "the surface and long in a jet, up to four times as long as thick: edges without "
+              "beads, thinner sheets, and a surface that lies half a particle distance deeper, for "
+              "more time. Drops stay round."},
         Field{"smoothing", &P::smoothing, "", anything(),
               "How depth is smoothed. bilateral keeps steps of depth that are higher than "
               "smoothing_range, so that a drop stays in front of what is behind it; narrow_range "

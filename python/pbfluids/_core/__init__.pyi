@@ -614,6 +614,7 @@ class RenderParams:
         radius: float = ...,
         drop_radius: float | None = ...,
         particle_volume: float | None = ...,
+        anisotropy: float = ...,
         smoothing: str = ...,
         smoothing_radius: float | None = ...,
         smoothing_range: float | None = ...,
@@ -668,6 +669,13 @@ class RenderParams:
             typing.SupportsFloat | typing.SupportsIndex,
         ],
     ) -> None: ...
+    @property
+    def anisotropy(self) -> float:
+        """
+        How far sprites follow the fluid around them. 0: spheres. 1: ellipsoids, flat along the surface and long in a jet, up to four times as long as thick: edges without beads, thinner sheets, and a surface that lies half a particle distance deeper, for more time. Drops stay round.
+        """
+    @anisotropy.setter
+    def anisotropy(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def background(self) -> str:
         """

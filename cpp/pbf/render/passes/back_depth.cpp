@@ -3,17 +3,21 @@
 namespace pbf {
 
 BackDepth::BackDepth(const GlslSource& source)
-    : program_(source,
-               {.vertex = {"frame.glsl", "sphere_outline.glsl", "sprite.vert"},
-                .fragment = {"frame.glsl", "sphere_hit.glsl", "back_depth.frag"},
-                .defines = {}}) {}
+    : programs_(
+          source,
+          {.vertex = {"frame.glsl", "sphere_outline.glsl", "sprite.vert"},
+           .fragment = {"frame.glsl", "sphere_hit.glsl", "sprite_hit.glsl", "back_depth.frag"},
+           .defines = {}}) {
+  (void)programs_.with({});  // an error in a shader shows now
+}
 
 void BackDepth::operator()(const Sprites& sprites,
                            const RenderParams& params,
-                           const Framebuffer& out) const {
+                           const Framebuffer& out) {
   out.clear(0, {kNone, 0, 0, 0});
-  program_.use();
-  Sprites::set(program_, params);
+  const Program& program = programs_.with(sprites.defines());
+  program.use();
+  Sprites::set(program, params);
   sprites.draw(Blend::min);
 }
 

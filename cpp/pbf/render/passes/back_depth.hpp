@@ -17,10 +17,10 @@ class BackDepth {
 
   explicit BackDepth(const GlslSource& source);
   /// @param out  r32f affine depth, cleared first
-  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out) const;
+  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out);
 
  private:
-  Program program_;
+  ProgramVariants programs_;  // of spheres, of ellipsoids
 };
 
 }  // namespace pbf

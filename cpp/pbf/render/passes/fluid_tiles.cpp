@@ -14,6 +14,15 @@ void FluidTiles::find(const PointsView& positions, const FrameBlock& frame, Real
   upload(reached_);
 }
 
+void FluidTiles::find(const Records& centers,
+                      const Records& stretches,
+                      const FrameBlock& frame,
+                      Real radius) {
+  reached_.clear();
+  raster::mark_tiles(centers, stretches, radius, frame, reached_);
+  upload(reached_);
+}
+
 void FluidTiles::upload(const raster::Tiles& tiles) {
   std::vector<float> corners;
   for (const raster::Tile& tile : tiles.list()) {

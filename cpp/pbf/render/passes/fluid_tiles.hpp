@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pbf/core/records.hpp"
 #include "pbf/gl/buffer.hpp"
 #include "pbf/gl/draw.hpp"
 #include "pbf/render/frame_block.hpp"
@@ -17,6 +18,8 @@ class FluidTiles {
   FluidTiles(int width, int height);
   /// Finds the squares that spheres of a radius [m] can reach.
   void find(const PointsView& positions, const FrameBlock& frame, Real radius);
+  /// The same of the ellipsoids that stretches (Anisotropy) make of them.
+  void find(const Records& centers, const Records& stretches, const FrameBlock& frame, Real radius);
   /// Takes over squares that were found.
   void upload(const raster::Tiles& tiles);
   /// Draws these squares of the target; for programs with glsl/fluid_tiles.vert.

@@ -18,10 +18,10 @@ class SphereDepth {
   explicit SphereDepth(const GlslSource& source, bool with_others);
   /// @param out  r32f affine depth, and if with_others r32f thickness [m] and r32f back depth; all
   /// are cleared first
-  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out) const;
+  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out);
 
  private:
-  Program program_;
+  ProgramVariants programs_;  // of spheres, of ellipsoids
   bool with_others_;
 };
 

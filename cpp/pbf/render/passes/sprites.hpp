@@ -13,17 +13,21 @@ namespace pbf {
 /// and a drop is smaller.
 class Sprites {
  public:
-  Sprites() : buffer_(GL_ARRAY_BUFFER) { array_.instances(buffer_, 4, 0); }
+  Sprites();
   /// @param particles  position and crowding
-  void upload(const Records& particles);
+  /// @param stretches  of ellipsoids (Anisotropy); empty: spheres
+  void upload(const Records& particles, const Records& stretches = {});
+  /// What the programs that draw them are compiled with.
+  [[nodiscard]] std::vector<std::string> defines() const;
   /// Sets the uniforms of sprite.vert.
   static void set(const Program& program, const RenderParams& params);
   void draw(Blend blend) const;
 
  private:
-  Buffer buffer_;
-  VertexArray array_;
+  Buffer buffer_, stretches_;
+  VertexArray spheres_, ellipsoids_;
   GLsizei count_ = 0;
+  bool stretched_ = false;
 };
 
 }  // namespace pbf

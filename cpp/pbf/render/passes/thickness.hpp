@@ -14,10 +14,10 @@ class Thickness {
  public:
   explicit Thickness(const GlslSource& source);
   /// @param out  r32f [m], cleared first
-  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out) const;
+  void operator()(const Sprites& sprites, const RenderParams& params, const Framebuffer& out);
 
  private:
-  Program program_;
+  ProgramVariants programs_;  // of spheres, of ellipsoids
 };
 
 }  // namespace pbf

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace pbf::raster {
@@ -13,12 +14,40 @@ namespace {
 
 bool is_surface(float a) { return a > 0.1F * kNothing; }
 
+/// As glsl/frame.glsl has it.
+float crowding_of(float a) {
+  return 1 - static_cast<float>(std::bit_cast<std::uint32_t>(a) & 3U) / 3;
+}
+
+/// The surface along an axis of the picture: towards the next pixel; from the pixel to the neighbor
+/// of the smaller step of depth; whether there is none on one of the sides, or only another one,
+/// and whether on neither.
+struct Tangent {
+  Vec3 along, step;
+  bool ends, lone;
+};
+
+/// Normal of the sphere of a radius through a point and two more, at steps a and b from it: their
+/// circle's center lies at c, the sphere's behind it as seen along `view`. 0 if there is none.
+Vec3 sphere_normal(const Vec3& a, const Vec3& b, const Vec3& view, Real radius) {
+  const Vec3 across = a.cross(b);
+  const Vec3 c =
+      (a.squaredNorm() * b - b.squaredNorm() * a).cross(across) / (2 * across.squaredNorm());
+  const Real height2 = radius * radius - c.squaredNorm();
+  if (!(height2 > 0)) return Vec3::Zero();
+  const Vec3 n = across.dot(view) > 0 ? Vec3(-across) : across;
+  return (std::sqrt(height2) * n.normalized() - c) / radius;
+}
+
 /// The surface at the pixels of a picture (glsl/normal.frag).
 class SurfaceOf {
  public:
-  SurfaceOf(const Map& depth, const Camera& camera, Real range)
+  SurfaceOf(const Map& depth, const Map& spheres, const Camera& camera, const RenderParams& params)
       : depth_(depth),
-        range_(range),
+        spheres_(spheres),
+        range_(params.smoothing_range_in_force()),
+        radius_(params.radius),
+        drop_radius_(params.drop_radius_in_force()),
         frame_(frame_block(camera, depth.width(), depth.height())),
         perspective_(!camera.orthographic) {}
 
@@ -26,6 +55,20 @@ class SurfaceOf {
     return x >= 0 && y >= 0 && x < depth_.width() && y < depth_.height() &&
            is_surface(depth_.row(y)[x]);
   }
+  [[nodiscard]] Vec3 normal(int x, int y) const {
+    const Vec3 p = position(x, y);
+    const Real crowding = crowding_of(spheres_.row(y)[x]);
+    const Real radius = drop_radius_ * (1 - crowding) + radius_ * crowding;
+    const Tangent right = tangent(x, y, 1, 0, p, radius);
+    const Tangent up = tangent(x, y, 0, 1, p, radius);
+    const Vec3 n = right.along.cross(up.along).normalized();
+    if (crowding == 1 || !(right.ends || up.ends) || right.lone || up.lone) return n;
+    const Vec3 view = perspective_ ? Vec3(p / -p.z()) : Vec3(0, 0, -1);
+    const Vec3 own = sphere_normal(right.step, up.step, view, radius);
+    return own.dot(view) < 0 ? own : n;
+  }
+
+ private:
   /// In eye space [m].
   [[nodiscard]] Vec3 position(int x, int y) const {
     const float a = depth_.row(y)[x];
@@ -37,54 +80,58 @@ class SurfaceOf {
     return {spread * slope(x, frame_.size[0], frame_.lens[0]),
             spread * slope(y, frame_.size[1], frame_.lens[1]), -d};
   }
-  /// Along the step to the next pixel: the differences to both sides, weighted by
-  /// 1/(dz² + pixel²)². What is alone faces the viewer, a strand or a groove of one pixel too.
-  [[nodiscard]] Vec3 tangent(int x, int y, int dx, int dy, const Vec3& p) const {
+  /// The differences to both sides, weighted by 1/(dz² + pixel²)². What is alone faces the viewer,
+  /// a strand or a groove of one pixel too.
+  /// @param reach  a step of depth that is higher leads to another sphere [m]
+  [[nodiscard]] Tangent tangent(int x, int y, int dx, int dy, const Vec3& p, Real reach) const {
     const float width = (perspective_ ? -p.z() : 1) / frame_.size[3];  // of a pixel [m]
-    const auto weighted = [&](const Vec3& step) {
-      const float w = 1 / (step.z() * step.z() + width * width);
-      return Vec3(w * w * step);
-    };
     const bool has_next = exists(x + dx, y + dy);
     const bool has_previous = exists(x - dx, y - dy);
-    const Vec3 alone(static_cast<Real>(dx), static_cast<Real>(dy), 0);
-    if (!has_next && !has_previous) return alone;
     const Vec3 next = has_next ? Vec3(position(x + dx, y + dy) - p) : Vec3::Zero();
     const Vec3 previous = has_previous ? Vec3(p - position(x - dx, y - dy)) : Vec3::Zero();
+    const auto weight = [&](bool exists, const Vec3& step) {
+      return exists ? 1 / (step.z() * step.z() + width * width) : 0;
+    };
+    const float w_next = weight(has_next, next), w_previous = weight(has_previous, previous);
+    const bool on_next = has_next && std::abs(next.z()) < reach;
+    const bool on_previous = has_previous && std::abs(previous.z()) < reach;
     const bool is_strand = has_next && has_previous && next.z() * previous.z() <= 0 &&
                            std::min(std::abs(next.z()), std::abs(previous.z())) > range_;
-    if (is_strand) return alone;
-    Vec3 sum = Vec3::Zero();
-    if (has_next) sum += weighted(next);
-    if (has_previous) sum += weighted(previous);
-    return sum.normalized();
+    Vec3 along = w_next * w_next * next + w_previous * w_previous * previous;
+    if (is_strand || (!has_next && !has_previous)) {
+      along = Vec3(static_cast<Real>(dx), static_cast<Real>(dy), 0);
+    }
+    return {along.normalized(), w_next > w_previous ? next : Vec3(-previous),
+            !(on_next && on_previous), !(on_next || on_previous)};
   }
 
- private:
   const Map& depth_;
-  Real range_;  // [m]
+  const Map& spheres_;
+  Real range_, radius_, drop_radius_;  // [m]
   FrameBlock frame_;
   bool perspective_;
 };
 
 }  // namespace
 
-Pixels<float> normal(
-    const Map& depth, const Tiles& tiles, const Camera& camera, Real range, int threads) {
+Pixels<float> normal(const Map& depth,
+                     const Map& spheres,
+                     const Tiles& tiles,
+                     const Camera& camera,
+                     const RenderParams& params,
+                     int threads) {
   Pixels<float> result{depth.width(), depth.height(), 3, {}};
   result.data.resize(static_cast<std::size_t>(result.width) * result.height * 3);
-  const SurfaceOf surface(depth, camera, range);
+  const SurfaceOf surface(depth, spheres, camera, params);
   const std::vector<Tile> list = tiles.list();
   parallel_chunks(static_cast<Index>(list.size()), threads, 1, [&](Index first, Index) {
     const Tile tile = list[static_cast<std::size_t>(first)];
     for (int y = tile.y; y < std::min(tile.y + kTileSide, depth.height()); ++y) {
       for (int x = tile.x; x < std::min(tile.x + kTileSide, depth.width()); ++x) {
         if (!surface.exists(x, y)) continue;
-        const Vec3 p = surface.position(x, y);
-        const Vec3 n = surface.tangent(x, y, 1, 0, p).cross(surface.tangent(x, y, 0, 1, p));
         const int row = result.height - 1 - y;
         Eigen::Map<Vec3>(&result.data[3 * (static_cast<std::size_t>(row) * result.width + x)]) =
-            n.normalized();
+            surface.normal(x, y);
       }
     }
   });

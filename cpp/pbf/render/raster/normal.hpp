@@ -2,15 +2,20 @@
 
 #include "pbf/render/camera.hpp"
 #include "pbf/render/image.hpp"
+#include "pbf/render/params.hpp"
 #include "pbf/render/raster/map.hpp"
 
 namespace pbf::raster {
 
 /// The pass normal in C++: unit normals in eye space, 0 where there is no fluid.
-/// @param depth  affine depth
-/// @param range  steps of depth higher than this are between surfaces, not of one [m]
-Pixels<float> normal(
-    const Map& depth, const Tiles& tiles, const Camera& camera, Real range, int threads);
+/// @param depth    affine depth
+/// @param spheres  that of the spheres, with their crowding
+Pixels<float> normal(const Map& depth,
+                     const Map& spheres,
+                     const Tiles& tiles,
+                     const Camera& camera,
+                     const RenderParams& params,
+                     int threads);
 
 // Maps as layers, row 0 on top.
 Pixels<float> pixels(const Map& map);

@@ -29,7 +29,9 @@ struct TileBox {
 struct SplatKernels {
   /// Eye-space centers with their crowding, and the tiles they cover, of the particles
   /// [first, last). May write kMostLanes more.
+  /// @param stretches  of ellipsoids (Anisotropy), which become those in eye space; null: spheres
   void (*project)(const Record* particles,
+                  Record* stretches,
                   Index first,
                   Index last,
                   const SplatView& view,
@@ -37,8 +39,10 @@ struct SplatKernels {
                   TileBox* boxes);
   /// Draws sprites into a tile of the maps. Behind the last sprite there must be kMostLanes that
   /// can be read.
+  /// @param stretches  in eye space; null: spheres
   /// @param depth, thickness, back  the tile's first pixel; without depth only thickness is drawn
   void (*draw)(const Record* centers,
+               const Record* stretches,
                Index count,
                const SplatView& view,
                Tile tile,

@@ -26,6 +26,17 @@ bool is_large(const TileBox& box) {
   return (box.last_column - box.first_column + 1) * (box.last_row - box.first_row + 1) > kMostTiles;
 }
 
+void mark(const TileBox& box, Tiles& tiles) {
+  for (int row = box.first_row; row <= box.last_row; ++row) {
+    for (int column = box.first_column; column <= box.last_column; ++column) {
+      tiles.mark(column, row);
+    }
+  }
+}
+
+/// Particles whose tiles are marked at a time.
+constexpr Index kMostMarked = 1 << 10;
+
 }  // namespace
 
 SplatView splat_view(const FrameBlock& frame, const RenderParams& params) {
@@ -76,34 +87,55 @@ void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads) {
 }
 
 void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles) {
-  constexpr Index kMost = 1 << 10;  // positions at a time
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   const SplatView view = splat_view(frame, {.radius = radius});
-  parallel_chunks(positions.cols(), 0, kMost, [&](Index first, Index last) {
+  parallel_chunks(positions.cols(), 0, kMostMarked, [&](Index first, Index last) {
     const Index count = last - first;
-    std::array<Record, kMost + kMostLanes> centers;
-    std::array<TileBox, kMost + kMostLanes> boxes;
+    std::array<Record, kMostMarked + kMostLanes> centers;
+    std::array<TileBox, kMostMarked + kMostLanes> boxes;
     for (Index i = 0; i < count; ++i) {
       const auto x = positions.col(first + i);
       centers[i] = {x[0], x[1], x[2], 1};
     }
-    kernels.project(centers.data(), 0, count, view, centers.data(), boxes.data());
-    for (Index i = 0; i < count; ++i) {
-      for (int row = boxes[i].first_row; row <= boxes[i].last_row; ++row) {
-        for (int column = boxes[i].first_column; column <= boxes[i].last_column; ++column) {
-          tiles.mark(column, row);
-        }
-      }
-    }
+    kernels.project(centers.data(), nullptr, 0, count, view, centers.data(), boxes.data());
+    for (Index i = 0; i < count; ++i) mark(boxes[i], tiles);
   });
 }
 
-void Splats::bin(const Record* particles, Index n, const SplatView& view, int threads) {
+void mark_tiles(
+    const Records& centers, Records stretches, Real radius, const FrameBlock& frame, Tiles& tiles) {
+  const SplatKernels& kernels = splat_kernels(chosen_isa());
+  const SplatView view = splat_view(frame, {.radius = radius});
+  parallel_chunks(centers.size(), 0, kMostMarked, [&](Index first, Index last) {
+    std::array<Record, kMostMarked + kMostLanes> projected;
+    std::array<TileBox, kMostMarked + kMostLanes> boxes;
+    kernels.project(centers.data() + first, stretches.data() + 2 * first, 0, last - first, view,
+                    projected.data(), boxes.data());
+    for (Index i = 0; i < last - first; ++i) mark(boxes[i], tiles);
+  });
+}
+
+void Splats::Sprites::resize(Index n, bool stretched) {
+  centers.resize(n);
+  stretches.resize(stretched ? 2 * (n + kMostLanes) : 0);  // loops read whole vectors
+}
+
+void Splats::Sprites::set(Index at, const Sprites& from, Index i) {
+  centers[at] = from.centers[i];
+  if (stretches.size() == 0) return;
+  stretches[2 * at] = from.stretches[2 * i];
+  stretches[2 * at + 1] = from.stretches[2 * i + 1];
+}
+
+void Splats::bin(
+    const Record* particles, Index n, const SplatView& view, int threads, const Record* stretches) {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   tiles_ = Tiles(static_cast<int>(std::ceil(view.width)), static_cast<int>(std::ceil(view.height)));
   const auto tiles = static_cast<std::size_t>(tiles_.columns()) * tiles_.rows();
   const auto blocks = static_cast<std::size_t>((n + kBlock - 1) / kBlock);
-  centers_.resize(n);
+  const bool stretched = stretches != nullptr;
+  all_.resize(n, stretched);
+  if (stretched) std::copy_n(stretches, 2 * n, all_.stretches.data());
   boxes_.resize(static_cast<std::size_t>(n + kMostLanes));
   places_.assign(blocks * tiles, 0);
   const auto for_tiles = [&](Index i, auto&& f) {
@@ -116,7 +148,8 @@ void Splats::bin(const Record* particles, Index n, const SplatView& view, int th
     }
   };
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
-    kernels.project(particles, first, last, view, centers_.data(), boxes_.data());
+    kernels.project(particles, stretched ? all_.stretches.data() : nullptr, first, last, view,
+                    all_.centers.data(), boxes_.data());
     std::uint32_t* count = places_.data() + static_cast<std::size_t>(first / kBlock) * tiles;
     for (Index i = first; i < last; ++i) for_tiles(i, [&](std::size_t tile) { ++count[tile]; });
   });
@@ -134,11 +167,11 @@ void Splats::bin(const Record* particles, Index n, const SplatView& view, int th
   }
   starts_[tiles] = sum;
   find_large();
-  binned_.resize(sum);
+  binned_.resize(sum, stretched);
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     std::uint32_t* place = places_.data() + static_cast<std::size_t>(first / kBlock) * tiles;
     for (Index i = first; i < last; ++i) {
-      for_tiles(i, [&](std::size_t tile) { binned_[place[tile]++] = centers_[i]; });
+      for_tiles(i, [&](std::size_t tile) { binned_.set(place[tile]++, all_, i); });
     }
   });
 }
@@ -147,18 +180,14 @@ void Splats::find_large() {
   large_.clear();
   TileBox all{std::numeric_limits<std::int16_t>::max(), -1,
               std::numeric_limits<std::int16_t>::max(), -1};
-  for (Index i = 0; i < centers_.size(); ++i) {
+  for (Index i = 0; i < all_.centers.size(); ++i) {
     const TileBox& box = boxes_[static_cast<std::size_t>(i)];
     if (!is_large(box)) continue;
-    large_.push_back(centers_[i]);
+    large_.push_back(i);
     all = {std::min(all.first_column, box.first_column), std::max(all.last_column, box.last_column),
            std::min(all.first_row, box.first_row), std::max(all.last_row, box.last_row)};
   }
-  for (int row = all.first_row; row <= all.last_row; ++row) {
-    for (int column = all.first_column; column <= all.last_column; ++column) {
-      tiles_.mark(column, row);
-    }
-  }
+  mark(all, tiles_);
 }
 
 void Splats::draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const {
@@ -173,22 +202,26 @@ void Splats::draw(const SplatView& view, Map* depth, Map& thickness, Map* back, 
     const Tile tile = tiles[static_cast<std::size_t>(first)];
     const auto number = static_cast<std::size_t>(tile.y / kTileSide * tiles_.columns()) +
                         static_cast<std::size_t>(tile.x / kTileSide);
-    const auto draw = [&](const Record* sprites, Index count) {
+    const auto draw = [&](const Sprites& sprites, Index from, Index count) {
       const std::ptrdiff_t at = tile.y * thickness.pitch() + tile.x;
-      kernels.draw(sprites, count, view, tile, depth == nullptr ? nullptr : depth->row(0) + at,
-                   thickness.row(0) + at, depth == nullptr ? nullptr : back->row(0) + at,
-                   thickness.pitch());
+      kernels.draw(sprites.centers.data() + from, sprites.stretches_from(from), count, view, tile,
+                   depth == nullptr ? nullptr : depth->row(0) + at, thickness.row(0) + at,
+                   depth == nullptr ? nullptr : back->row(0) + at, thickness.pitch());
     };
-    const Record* own = binned_.data() + starts_[number];
-    const auto count = static_cast<Index>(starts_[number + 1] - starts_[number]);
+    const auto own = static_cast<Index>(starts_[number]);
+    const auto count = static_cast<Index>(starts_[number + 1]) - own;
     if (large_.empty()) {
-      draw(own, count);
+      draw(binned_, own, count);
       return;
     }
-    std::vector<Record> all(large_);
-    all.insert(all.end(), own, own + count);
-    all.resize(all.size() + kMostLanes);
-    draw(all.data(), static_cast<Index>(all.size()) - kMostLanes);
+    const auto large = static_cast<Index>(large_.size());
+    Sprites together;
+    together.resize(large + count, all_.stretches.size() > 0);
+    for (Index k = 0; k < large; ++k) {
+      together.set(k, all_, large_[static_cast<std::size_t>(k)]);
+    }
+    for (Index k = 0; k < count; ++k) together.set(large + k, binned_, own + k);
+    draw(together, 0, large + count);
   });
 }
 

@@ -16,7 +16,12 @@ class Splats {
  public:
   /// Sorts the particles, with their crowding, into tiles.
   /// @param particles  behind the last there must be kMostLanes that can be read
-  void bin(const Record* particles, Index count, const SplatView& view, int threads);
+  /// @param stretches  of ellipsoids (Anisotropy), two for each; null: spheres
+  void bin(const Record* particles,
+           Index count,
+           const SplatView& view,
+           int threads,
+           const Record* stretches = nullptr);
   /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it; if none
   ///                   is given, only thickness is drawn
   /// @param thickness  [m]
@@ -26,14 +31,24 @@ class Splats {
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
 
  private:
+  /// Sprites side by side.
+  struct Sprites {
+    Records centers;
+    Records stretches;  // two for each, or none: spheres
+    void resize(Index n, bool stretched);
+    void set(Index at, const Sprites& from, Index i);
+    [[nodiscard]] const Record* stretches_from(Index at) const {
+      return stretches.size() > 0 ? stretches.data() + 2 * at : nullptr;
+    }
+  };
   void find_large();
 
   Tiles tiles_{1, 1};
-  Records centers_, binned_;
+  Sprites all_, binned_;
   std::vector<TileBox> boxes_;
   std::vector<std::uint32_t> places_;  // of each tile in each block of particles
   std::vector<std::uint32_t> starts_;  // in binned_, of each tile and the end
-  std::vector<Record> large_;          // drawn in every tile
+  std::vector<Index> large_;           // of all_, drawn in every tile
 };
 
 SplatView splat_view(const FrameBlock& frame, const RenderParams& params);
@@ -45,5 +60,8 @@ void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads);
 
 /// Marks the tiles that spheres of a radius [m] can reach.
 void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles);
+/// The same of the ellipsoids that stretches (Anisotropy) make of them.
+void mark_tiles(
+    const Records& centers, Records stretches, Real radius, const FrameBlock& frame, Tiles& tiles);
 
 }  // namespace pbf::raster

@@ -1,6 +1,5 @@
 // Compiled once per instruction set (cpp/pbf_render.cmake).
-#include "pbf/core/lanes.hpp"
-#include "pbf/render/raster/splat_kernels.hpp"
+#include "pbf/render/raster/ellipsoid_lanes.hpp"
 
 namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
@@ -45,14 +44,17 @@ PBF_INLINE Lanes radius_of(const SplatView& view, Lanes crowding) {
   return view.drop_radius * (1.0F - crowding) + view.radius * crowding;
 }
 
-PBF_INLINE Outline outline(const SplatView& view, const Vec3Lanes& center, Lanes radius) {
-  Interval x{center.x - radius, center.x + radius};
-  Interval y{center.y - radius, center.y + radius};
-  const Lanes z = -center.z;
-  if (view.perspective) {
-    x = slopes(center.x, z, radius, view.near);
-    y = slopes(center.y, z, radius, view.near);
-  }
+/// The same of an ellipsoid of all center + v with v^T A^-1 v <= 1, by its center and A: the planes
+/// through the origin that touch it are x = s z with (x - s z)^2 = xx - 2 s xz + s^2 zz.
+PBF_INLINE Interval slopes(Lanes x, Lanes z, Lanes xx, Lanes zz, Lanes xz) {
+  // Squares of differences of what is near to one another would lose the digits that matter.
+  const Lanes root =
+      sqrt(max(z * z * xx - 2.0F * (x * z) * xz + x * x * zz - (xx * zz - xz * xz), 0.0F));
+  const Lanes middle = x * z - xz, inverse = 1.0F / (z * z - zz);
+  return {(middle - root) * inverse, (middle + root) * inverse};
+}
+
+PBF_INLINE Outline outline(const SplatView& view, Interval x, Interval y, Lanes z, Lanes reach) {
   // A hundredth of a pixel of margin for rounding; beyond the picture there is nothing to draw.
   const auto pixel = [](Lanes slope, float half_size, float pixels, float margin)
                          PBF_LAMBDA_INLINE {
@@ -63,7 +65,43 @@ PBF_INLINE Outline outline(const SplatView& view, const Vec3Lanes& center, Lanes
           pixel(x.high, view.half_width, view.width, 0.01F),
           pixel(y.low, view.half_height, view.height, -0.01F),
           pixel(y.high, view.half_height, view.height, 0.01F),
-          (z + radius > view.near) & (z - radius < view.far)};
+          (z + reach > view.near) & (z - reach < view.far)};
+}
+
+PBF_INLINE Outline outline(const SplatView& view, const Vec3Lanes& center, Lanes radius) {
+  const Lanes z = -center.z;
+  if (!view.perspective) {
+    return outline(view, {center.x - radius, center.x + radius},
+                   {center.y - radius, center.y + radius}, z, radius);
+  }
+  return outline(view, slopes(center.x, z, radius, view.near),
+                 slopes(center.y, z, radius, view.near), z, radius);
+}
+
+/// Of the ellipsoid that `stretch` makes of the sphere.
+PBF_INLINE Outline outline(const SplatView& view,
+                           const Vec3Lanes& center,
+                           Lanes radius,
+                           const Symmetric& stretch) {
+  const Symmetric unit = squared(stretch);
+  const Lanes r2 = radius * radius, z = -center.z;
+  const Lanes xx = r2 * unit.xx, yy = r2 * unit.yy, zz = r2 * unit.zz;
+  const Lanes half_x = sqrt(xx), half_y = sqrt(yy), half_z = sqrt(zz);
+  if (!view.perspective) {
+    return outline(view, {center.x - half_x, center.x + half_x},
+                   {center.y - half_y, center.y + half_y}, z, half_z);
+  }
+  Interval x = slopes(center.x, z, xx, zz, -r2 * unit.xz);
+  Interval y = slopes(center.y, z, yy, zz, -r2 * unit.yz);
+  const Mask cut = z - half_z < Lanes(view.near);
+  if (any(cut)) {  // by the near plane: a sphere around it
+    const Lanes around = sqrt(xx + yy + zz);
+    const Interval sphere_x = slopes(center.x, z, around, view.near);
+    const Interval sphere_y = slopes(center.y, z, around, view.near);
+    x = {select(cut, sphere_x.low, x.low), select(cut, sphere_x.high, x.high)};
+    y = {select(cut, sphere_y.low, y.low), select(cut, sphere_y.high, y.high)};
+  }
+  return outline(view, x, y, z, half_z);
 }
 
 /// The first pixel whose center is not below an image coordinate.
@@ -73,6 +111,7 @@ PBF_INLINE Ints first_pixel(Lanes at) {
 }
 
 void project(const Record* particles,
+             Record* stretches,
              Index first,
              Index last,
              const SplatView& view,
@@ -86,7 +125,14 @@ void project(const Record* particles,
     };
     const Vec3Lanes center{row(0), row(1), row(2)};
     store_records(centers + i, center, p.w);
-    const Outline at = outline(view, center, radius_of(view, p.w));
+    Outline at;
+    if (stretches == nullptr) {
+      at = outline(view, center, radius_of(view, p.w));
+    } else {
+      const Symmetric stretch = turned(load_symmetric(stretches + 2 * i), m);
+      store_symmetric(stretches + 2 * i, stretch);
+      at = outline(view, center, radius_of(view, p.w), stretch);
+    }
     const Ints left = first_pixel(at.left), right = first_pixel(at.right);
     const Ints bottom = first_pixel(at.bottom), top = first_pixel(at.top);
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -119,8 +165,31 @@ struct Sprite {
   int left, right, bottom, top;
 };
 
-template <bool kPerspective, bool kDepth>
-void splat(const Sprite& s, const SplatView& view, Workspace& to) {
+/// From where it is an ellipsoid to where it is a sphere: the matrix column by column, and the
+/// center there.
+struct ToSphere {
+  Vec3Lanes x, y, z, center;
+};
+
+/// A ray, given by x and y of its direction (perspective) or of its origin, against a sprite: the
+/// depth nearest to the center, how far the center is from there squared, and 1 / |direction|², the
+/// latter two as they are where the sprite is a sphere.
+struct Miss {
+  Lanes middle, distance2, inverse2;
+};
+template <bool kPerspective>
+PBF_INLINE Miss miss(const ToSphere& to, Lanes px, Lanes py) {
+  Vec3Lanes direction = Lanes(-1.0F) * to.z, center = to.center;
+  const Vec3Lanes shift = px * to.x + py * to.y;
+  (kPerspective ? direction : center) += kPerspective ? shift : Lanes(-1.0F) * shift;
+  const Lanes inverse2 = 1.0F / dot(direction, direction);
+  const Lanes middle = dot(direction, center) * inverse2;
+  const Vec3Lanes beside = center - middle * direction;
+  return {middle, dot(beside, beside), inverse2};
+}
+
+template <bool kPerspective, bool kDepth, bool kStretched>
+void splat(const Sprite& s, const ToSphere& to_sphere, const SplatView& view, Workspace& to) {
   const Lanes radius2 = s.radius * s.radius;
   const Ints level = static_cast<std::int32_t>(s.level) - Ints{};
   for (int y = s.bottom; y < s.top; ++y) {
@@ -129,7 +198,12 @@ void splat(const Sprite& s, const SplatView& view, Workspace& to) {
       const int at = y * kWidth + x;
       const Lanes px = load_lanes(to.x + x);
       Lanes middle, miss2, inverse2;
-      if (kPerspective) {
+      if constexpr (kStretched) {
+        const Miss found = miss<kPerspective>(to_sphere, px, py);
+        middle = found.middle;
+        miss2 = found.distance2;
+        inverse2 = found.inverse2;
+      } else if (kPerspective) {
         inverse2 = load_lanes(to.inverse2 + at);
         middle = (px * s.x + py * s.y - s.z) * inverse2;
         const Vec3Lanes miss{s.x - middle * px, s.y - middle * py, s.z + middle};
@@ -161,8 +235,9 @@ void splat(const Sprite& s, const SplatView& view, Workspace& to) {
   }
 }
 
-template <bool kPerspective, bool kDepth>
+template <bool kPerspective, bool kDepth, bool kStretched>
 void draw_tile(const Record* centers,
+               [[maybe_unused]] const Record* stretches,
                Index count,
                const SplatView& view,
                Tile tile,
@@ -196,7 +271,17 @@ void draw_tile(const Record* centers,
   for (Index i = 0; i < count; i += kLanes) {
     const RecordLanes c = load_records(centers + i);
     const Lanes radius = radius_of(view, c.w);
-    const Outline at = outline(view, c.xyz, radius);
+    Outline at;
+    Symmetric inverse;
+    Vec3Lanes center;
+    if constexpr (kStretched) {
+      const Symmetric stretch = load_symmetric(stretches + 2 * i);
+      at = outline(view, c.xyz, radius, stretch);
+      inverse = adjugate(stretch);
+      center = inverse * c.xyz;
+    } else {
+      at = outline(view, c.xyz, radius);
+    }
     const auto inside = [](Ints pixel, int low) PBF_LAMBDA_INLINE {
       pixel -= low;
       const Ints zero{};
@@ -212,11 +297,19 @@ void draw_tile(const Record* centers,
     const Ints level = __builtin_convertvector((3.5F - 3.0F * c.w).v, Ints);
     const int lanes = count - i < kLanes ? static_cast<int>(count - i) : kLanes;
     for (int lane = 0; lane < lanes; ++lane) {
-      splat<kPerspective, kDepth>(
-          {c.xyz.x.v[lane], c.xyz.y.v[lane], c.xyz.z.v[lane], radius.v[lane], share.v[lane],
-           static_cast<std::uint32_t>(level[lane]), left[lane], right[lane], bottom[lane],
-           top[lane]},
-          view, work);
+      const Sprite sprite{c.xyz.x.v[lane], c.xyz.y.v[lane], c.xyz.z.v[lane],
+                          radius.v[lane],  share.v[lane],   static_cast<std::uint32_t>(level[lane]),
+                          left[lane],      right[lane],     bottom[lane],
+                          top[lane]};
+      ToSphere to;
+      if constexpr (kStretched) {
+        const auto of = [&](Lanes x, Lanes y, Lanes z) PBF_LAMBDA_INLINE {
+          return Vec3Lanes{x.v[lane], y.v[lane], z.v[lane]};
+        };
+        to = {of(inverse.xx, inverse.xy, inverse.xz), of(inverse.xy, inverse.yy, inverse.yz),
+              of(inverse.xz, inverse.yz, inverse.zz), of(center.x, center.y, center.z)};
+      }
+      splat<kPerspective, kDepth, kStretched>(sprite, to, view, work);
     }
   }
   for (int y = 0; y < kTileSide; ++y) {
@@ -231,7 +324,16 @@ void draw_tile(const Record* centers,
   }
 }
 
+template <bool kStretched>
+auto tile_loop(bool perspective, bool with_depth) {
+  return perspective
+             ? with_depth ? draw_tile<true, true, kStretched> : draw_tile<true, false, kStretched>
+         : with_depth ? draw_tile<false, true, kStretched>
+                      : draw_tile<false, false, kStretched>;
+}
+
 void draw(const Record* centers,
+          const Record* stretches,
           Index count,
           const SplatView& view,
           Tile tile,
@@ -239,11 +341,9 @@ void draw(const Record* centers,
           float* thickness,
           float* back,
           std::ptrdiff_t pitch) {
-  const auto draw = depth == nullptr
-                        ? view.perspective ? draw_tile<true, false> : draw_tile<false, false>
-                    : view.perspective ? draw_tile<true, true>
-                                       : draw_tile<false, true>;
-  draw(centers, count, view, tile, depth, thickness, back, pitch);
+  const auto loop = stretches != nullptr ? tile_loop<true> : tile_loop<false>;
+  loop(view.perspective, depth != nullptr)(centers, stretches, count, view, tile, depth, thickness,
+                                           back, pitch);
 }
 
 }  // namespace

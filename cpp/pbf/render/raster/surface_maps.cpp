@@ -53,11 +53,23 @@ void SurfaceMaps::find(const PointsView& positions,
   stage("crowding", [&] {
     crowding_.find(positions, camera, params.crowding_distance(), params.radius, threads);
   });
+  const Records& particles = crowding_.particles();
+  const Index deep = exact ? 0 : crowding_.deep();
+  const Index shallow = particles.size() - deep;
+  const bool stretched = params.anisotropy > 0;
+  if (stretched) {
+    stage("anisotropy", [&] {
+      anisotropy_.find(particles, shallow, camera.eye, params.shape_distance(), params.anisotropy,
+                       threads);
+    });
+  }
   stage("sphere_depth", [&] {
-    const Records& particles = crowding_.particles();
-    const Index deep = exact ? 0 : crowding_.deep();
-    const Index shallow = particles.size() - deep;
-    splats_.bin(particles.data(), shallow, view, threads);
+    if (stretched) {
+      splats_.bin(anisotropy_.centers().data(), shallow, view, threads,
+                  anisotropy_.stretches().data());
+    } else {
+      splats_.bin(particles.data(), shallow, view, threads);
+    }
     splats_.draw(view, &depth_, thickness_, &back_, threads);
     if (deep == 0) return;
     // Nobody sees these, and where they are there are no edges.

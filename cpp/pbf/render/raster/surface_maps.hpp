@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pbf/render/anisotropy.hpp"
 #include "pbf/render/camera.hpp"
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/layer_filter.hpp"
@@ -53,6 +54,7 @@ class SurfaceMaps {
                       int threads);
 
   Crowding crowding_;
+  Anisotropy anisotropy_;
   Splats splats_, deep_splats_;
   Map depth_, thickness_;
   Map deep_thickness_;  // with half as many pixels to a side
