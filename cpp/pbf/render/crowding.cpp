@@ -1,6 +1,7 @@
 #include "pbf/render/crowding.hpp"
 
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/candidates.hpp"
 #include "pbf/render/crowding_kernels.hpp"
 
 #include <array>
@@ -15,23 +16,7 @@ using Place = FullCells::Place;
 /// Particles that are sorted out at a time.
 constexpr Index kBlock = 1 << 14;
 
-/// What a thread needs to look at a cell.
-struct Scratch {
-  std::vector<float> numbers;
-  std::vector<std::uint32_t> entries;
-  Candidates candidates(CellGrid::Ranges ranges) {
-    std::size_t room = kMostLanes;
-    for (const Span& range : ranges) room += range.end - range.begin;
-    if (entries.size() < room) {
-      entries.resize(2 * room);
-      numbers.resize(4 * entries.size());
-    }
-    float* x = numbers.data();
-    return {x, x + entries.size(), x + 2 * entries.size(), entries.data(), 0};
-  }
-  float* u() { return numbers.data() + 3 * entries.size(); }
-};
-thread_local Scratch scratch;
+thread_local CandidateRoom room;
 
 /// How many of the particles before a block are to be looked at, and how many are deep.
 struct Starts {
@@ -112,23 +97,10 @@ void Crowding::sort(Real s, int threads) {
 
 template <class Wanted, class F>
 void Crowding::for_each(int threads, Wanted&& wanted, F&& f) const {
-  const Scan& loops = scan(chosen_isa());
   parallel_chunks(sorted_.size(), threads, 4 * kChunk, [&](Index first, Index last) {
     while (first < last && !wanted(static_cast<std::uint32_t>(first))) ++first;
     while (first < last && !wanted(static_cast<std::uint32_t>(last - 1))) --last;
-    grid_.for_each_cell(
-        first, last, [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
-          Candidates candidates{};
-          for (std::uint32_t k = begin; k < end; ++k) {
-            if (!wanted(k)) continue;
-            if (candidates.count == 0) {
-              candidates = scratch.candidates(ranges);
-              candidates.count =
-                  loops.collect(sorted_.data(), ranges.data(), ranges.size(), candidates);
-            }
-            f(k, candidates);
-          }
-        });
+    for_each_with_candidates(grid_, sorted_, first, last, room, wanted, f);
   });
 }
 
@@ -139,7 +111,8 @@ void Crowding::find_crowding(Real s, int threads) {
   const auto is_wanted = [&](std::uint32_t k) { return is_set(wanted_[k]); };
   const auto sum = [&](std::uint32_t k, const Candidates& candidates) {
     const Record& particle = sorted_[k];
-    sorted_[k].w = std::min(kernels.sum(candidates, particle, inverse_s2, scratch.u()), kBodySum);
+    sorted_[k].w =
+        std::min(kernels.sum(candidates, particle, inverse_s2, room.numbers()), kBodySum);
   };
   // Which of these a thread finds marked depends on the others' pace; the result does not.
   for_each(threads, is_no_body, [&](std::uint32_t k, const Candidates& candidates) {
@@ -148,7 +121,7 @@ void Crowding::find_crowding(Real s, int threads) {
       return;
     }
     sum(k, candidates);
-    if (sorted_[k].w == kBodySum) kernels.mark(candidates, scratch.u(), body_.data());
+    if (sorted_[k].w == kBodySum) kernels.mark(candidates, room.numbers(), body_.data());
   });
   for_each(threads, is_no_body, [&](std::uint32_t k, const Candidates& candidates) {
     kernels.mark_unknown(candidates, sorted_[k], inverse_s2, sorted_.data(), wanted_.data());

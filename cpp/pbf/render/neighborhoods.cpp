@@ -1,31 +1,9 @@
 #include "pbf/render/neighborhoods.hpp"
 
-#include "pbf/core/isa.hpp"
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/candidates.hpp"
 
 namespace pbf {
-namespace {
-
-/// Room for the candidates around a cell.
-class Room {
- public:
-  Candidates candidates(CellGrid::Ranges ranges) {
-    std::size_t most = kMostLanes;
-    for (const Span& range : ranges) most += range.end - range.begin;
-    if (entries_.size() < most) {
-      entries_.resize(2 * most);
-      numbers_.resize(3 * entries_.size());
-    }
-    Real* x = numbers_.data();
-    return {x, x + entries_.size(), x + 2 * entries_.size(), entries_.data(), 0};
-  }
-
- private:
-  std::vector<Real> numbers_;
-  std::vector<std::uint32_t> entries_;
-};
-
-}  // namespace
 
 void Neighborhoods::find(const Records& particles, const Vec3& eye, Real s, int threads) {
   const Real farthest = 0.5F * static_cast<Real>(kFarthestCell) * s;
@@ -46,23 +24,13 @@ void Neighborhoods::find(const Records& particles, const Vec3& eye, Real s, int 
 }
 
 void Neighborhoods::for_each(Index count, int threads, const Visit& visit) const {
-  const Scan& loops = scan(chosen_isa());
+  const auto is_wanted = [&](std::uint32_t k) { return ids_[grid_.order()[k]] < count; };
   parallel_chunks(sorted_.size(), threads, 4 * kChunk, [&](Index first, Index last) {
-    Room room;
-    grid_.for_each_cell(
-        first, last, [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
-          Candidates candidates{};
-          for (std::uint32_t k = begin; k < end; ++k) {
-            const Index i = ids_[grid_.order()[k]];
-            if (i >= count) continue;
-            if (candidates.count == 0) {
-              candidates = room.candidates(ranges);
-              candidates.count =
-                  loops.collect(sorted_.data(), ranges.data(), ranges.size(), candidates);
-            }
-            visit(i, sorted_[k], candidates);
-          }
-        });
+    CandidateRoom room;
+    for_each_with_candidates(grid_, sorted_, first, last, room, is_wanted,
+                             [&](std::uint32_t k, const Candidates& candidates) {
+                               visit(ids_[grid_.order()[k]], sorted_[k], candidates);
+                             });
   });
 }
 
