@@ -207,6 +207,21 @@ def test_the_iterations_end_at_the_tolerance_and_not_before_the_least() -> None:
     assert worst.step(1 / 240).max_density_error < 6e-4
 
 
+def test_the_worst_particle_of_a_dam_break_stays_within_its_tolerance() -> None:
+    def worst(**changes: float) -> float:
+        side, tank_of = 0.3, (0.9, 0.6, 0.3)
+        simulation = pbf.Simulation(
+            pbf.FluidParams(spacing=0.02),
+            pbf.SolverParams(**changes),
+            domain=pbf.Box((0,) * 3, tank_of),
+        )
+        simulation.add_particles(pbf.block((0,) * 3, (side,) * 3, 0.02))
+        return max(simulation.step(1 / 240).max_density_error for _ in range(120))
+
+    assert worst(max_tolerance=99) > 0.04
+    assert worst() < 0.03 + 1e-5
+
+
 def test_momentum_of_iterations_needs_fewer_of_them() -> None:
     def iterations(**changes: object) -> int:
         solver = pbf.SolverParams(max_iterations=2000, warm_start=0.0).replace(**changes)

@@ -94,8 +94,6 @@ class Solver:
     def of(cls, solver: Any) -> Solver:
         """The same solver as the library's SolverParams."""
         values = {name: getattr(solver, name) for name in cls.__dataclass_fields__}
-        if values["max_tolerance"] is None:
-            values["max_tolerance"] = math.inf
         made = cls(
             **{k: float(as_float32(v)) if isinstance(v, float) else v for k, v in values.items()}
         )

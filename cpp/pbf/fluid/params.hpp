@@ -81,7 +81,7 @@ struct SolverParams {
   int min_iterations = 2;
   int max_iterations = 100;
   Real tolerance = 0.001F;
-  std::optional<Real> max_tolerance = std::nullopt;
+  Real max_tolerance = 0.03F;
   Real compliance = 0.0F;
   Real warm_start = 0.25F;
   int levels = 2;
@@ -135,10 +135,9 @@ struct SolverParams {
             "Mean compression, max(density / rest_density - 1, 0), at which the iterations end. "
             "Smaller is stiffer and slower. With compliance: what is left of the compression that "
             "the pressure does not account for."},
-        Field{
-            "max_tolerance", &SolverParams::max_tolerance, "", inside(0, 100),
-            "Compression of the worst particle that must be reached as well; not looked at if not "
-            "given."},
+        Field{"max_tolerance", &SolverParams::max_tolerance, "", inside(0, 100),
+              "Compression of the worst particle that must be reached as well. Iterations are for "
+              "all particles, so a small one is dear. Near 100 the mean alone decides."},
         Field{"compliance", &SolverParams::compliance, "s^2/m^2", at_least(0),
               "Softness of the fluid: density / rest_density - 1 = compliance * pressure / "
               "rest_density, whatever the time step. One over the speed of sound squared; 0 is "

@@ -209,7 +209,7 @@ void Simulation::iterate_pressure(Real dt, StepReport& report) {
   }
   const int most = solver_.iterations_in_force();
   const double enough = static_cast<double>(solver_.tolerance) * static_cast<double>(size());
-  const double worst = static_cast<double>(solver_.max_tolerance.value_or(kInfinity));
+  const double worst = static_cast<double>(solver_.max_tolerance);
   while (report.iterations < most) {
     {
       const auto t = report.time(Stage::multipliers);

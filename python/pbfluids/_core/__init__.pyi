@@ -139,7 +139,7 @@ class SolverParams:
         min_iterations: int = ...,
         max_iterations: int = ...,
         tolerance: float = ...,
-        max_tolerance: float | None = ...,
+        max_tolerance: float = ...,
         compliance: float = ...,
         warm_start: float = ...,
         levels: int = ...,
@@ -226,12 +226,12 @@ class SolverParams:
     @max_time_step.setter
     def max_time_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def max_tolerance(self) -> float | None:
+    def max_tolerance(self) -> float:
         """
-        Compression of the worst particle that must be reached as well; not looked at if not given.
+        Compression of the worst particle that must be reached as well. Iterations are for all particles, so a small one is dear. Near 100 the mean alone decides.
         """
     @max_tolerance.setter
-    def max_tolerance(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    def max_tolerance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def method(self) -> str | None:
         """
