@@ -45,6 +45,7 @@ class Solver(Protocol):
     """The dam break at its start."""
 
     support_radius: float  # [m]
+    kernel: str  # that densities are found with, as pbfluids.operators calls it
     search_ms: float | None  # spent in the neighbor search until now; None if it does not say
 
     def step(self) -> None:
@@ -72,6 +73,7 @@ class PBFluids:
                 iterations=case.iterations, xsph=case.xsph, vorticity=case.vorticity
             )
         fluid = pbf.FluidParams(spacing=case.spacing, gravity=GRAVITY)
+        self.kernel = "wendland" if as_it_comes else "poly6_spiky"
         self.simulation = pbf.Simulation(fluid, solver, domain=pbf.Box((0, 0, 0), case.tank))
         self.simulation.add_particles(pbf.block((0, 0, 0), (case.edge,) * 3, case.spacing))
 
@@ -98,6 +100,7 @@ class SPlisHSPlasH:
         self.sph = sph
         self.count = case.side**3
         self.method = method
+        self.kernel = "poly6_spiky" if method == "PBF" else "cubic_spline"  # as it chooses itself
         self.iterations = iterations  # exactly so many; None for its own stopping rule
         self.cfl = cfl  # time steps by its own rule instead of the case's
         self.folder = tempfile.TemporaryDirectory()
@@ -202,6 +205,7 @@ class Genesis:
     """Genesis' PBD.Liquid on the CPU. XSPH is always on in it, vorticity confinement never."""
 
     search_ms = None
+    kernel = "poly6_spiky"
 
     def __init__(self, case: DamBreak) -> None:
         import genesis as gs
