@@ -28,6 +28,11 @@ def tank(solver: pbf.SolverParams, **fluid: object) -> pbf.Simulation:
     return simulation
 
 
+def kinetic_energy(simulation: pbf.Simulation) -> float:
+    """Mean per mass [J/kg]."""
+    return 0.5 * float(np.mean(np.sum(simulation.velocities.astype(float) ** 2, axis=1)))
+
+
 @pytest.mark.parametrize(
     "solver",
     [
@@ -220,6 +225,35 @@ def test_the_worst_particle_of_a_dam_break_stays_within_its_tolerance() -> None:
 
     assert worst(max_tolerance=99) > 0.04
     assert worst() < 0.03 + 1e-5
+
+
+def test_a_warm_start_in_long_steps_is_bounded_as_in_the_reference() -> None:
+    """Steps of 1/30 s: shares of the last pressures would push by several spacings."""
+    dt = float(np.float32(1 / 30))
+    box = pbf.Box((0.0, 0.0, 0.0), (6 * D, 20 * D, 6 * D))
+    solver = pbf.SolverParams(warm_start=0.8, levels=1, max_iterations=40, xsph=0.0)
+    simulation = pbf.Simulation(pbf.FluidParams(spacing=D), solver, domain=box)
+    simulation.add_particles(pbf.block((0, 0, 0), (6 * D, 12 * D, 6 * D), D))
+    fluid, terms = ref.Fluid.of(simulation.fluid), ref.Solver.of(solver)
+    state = ref.State.at(simulation.positions, simulation.velocities)
+    bounded = 0
+    for _ in range(4):
+        bounded += 0.8 * np.abs(state.totals).max() > 0.5 * D**2
+        simulation.step(dt)
+        state = ref.step(state, fluid, terms, ref.Box.of(box), dt)
+    assert bounded >= 2
+    np.testing.assert_allclose(simulation.positions, state.x, rtol=0, atol=2e-3 * D)
+
+
+@pytest.mark.parametrize("warm_start", [0.25, 0.8])
+def test_deep_water_holds_in_steps_of_a_whole_frame(warm_start: float) -> None:
+    """√(gH) dt / d = 1.6, where half of the last pressures throws the surface up by a spacing."""
+    simulation = tank(pbf.SolverParams(warm_start=warm_start, substeps=1))
+    for _ in range(40):
+        report = simulation.advance(1 / 60)
+    assert report.stable
+    assert kinetic_energy(simulation) < 1e-3
+    assert 2 * simulation.positions[:, 1].mean() > 0.99 * 20 * D
 
 
 def test_momentum_of_iterations_needs_fewer_of_them() -> None:

@@ -14,6 +14,8 @@ from reference.neighbors import Neighbors, find_neighbors
 from reference.params import Array, Box, Fluid, Solver
 from reference.pressure import solve_pressures
 
+MOST_WARM_PUSH = 0.5  # largest |total| that a step starts from, in squared spacings
+
 
 @dataclass(frozen=True)
 class State:
@@ -101,6 +103,7 @@ def step(state: State, fluid: Fluid, solver: Solver, box: Box | None, dt: float)
         share = solver.warm_start * (dt / state.dt) ** 2 if state.dt > 0.0 else 0.0
         pressed = state.densities >= 0.9 * fluid.rest_density
         start = np.where(pressed, share * state.totals, 0.0)
+        start *= min(1.0, MOST_WARM_PUSH * fluid.spacing**2 / max(np.abs(start).max(), 1e-300))
         x_star, totals, iterations = solve_pressures(x_star, start, near, fluid, solver, box, dt)
         lambdas = totals
         C, _ = density_constraint(x_star, near, fluid)

@@ -75,7 +75,6 @@ Vec3* WallLattice::collect_near(const Vec3& x, Vec3* to) const {
   if (((x - walls_.lower).array() >= h_).all() && ((walls_.upper - x).array() >= h_).all()) {
     return to;
   }
-  const auto square = [](Real a) { return a * a; };
   const std::array<Sites, 3> sites{sites_near(0, x[0]), sites_near(1, x[1]), sites_near(2, x[2])};
   const Real h2 = h_ * h_;
   for (int c = 0; c < sites[2].size; ++c) {

@@ -3,6 +3,7 @@
 #include "pbf/core/threads.hpp"
 #include "pbf/core/types.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <vector>
@@ -55,6 +56,19 @@ Sum parallel_sum(Index n, int threads, F&& f) {
   Sum total{};
   for (const Sum& p : partial) total += p;
   return total;
+}
+
+/// The largest of 0, f(0), f(1), …
+template <class F>
+Real parallel_max(Index n, int threads, F&& f) {
+  struct Largest {
+    Real value = 0;
+    Largest& operator+=(const Largest& other) {
+      value = std::max(value, other.value);
+      return *this;
+    }
+  };
+  return parallel_sum<Largest>(n, threads, [&](Index i) { return Largest{f(i)}; }).value;
 }
 
 }  // namespace pbf

@@ -12,4 +12,6 @@ using Index = std::ptrdiff_t;
 /// balance a splash.
 inline constexpr Index kChunk = 256;
 
+constexpr Real square(Real a) { return a * a; }
+
 }  // namespace pbf

@@ -8,18 +8,6 @@
 namespace pbf {
 namespace {
 
-/// Largest |Λ| before and largest |δ| together, in squared spacings.
-constexpr Real kMostPush = 1;
-
-struct Largest {
-  Real before = 0, added = 0;
-  Largest& operator+=(const Largest& other) {
-    before = std::max(before, other.before);
-    added = std::max(added, other.added);
-    return *this;
-  }
-};
-
 /// What corner multipliers do to a particle: G_ic of all corners, by axis.
 using Motions = std::array<PerCorner<Real>, 3>;
 
@@ -101,12 +89,11 @@ void CoarseLevel::correct(const Neighborhood& near,
       for (std::size_t c = 0; c < kCorners; ++c) x_mu[i].w += hats.w[c] * mu[c];
     }
   });
-  const auto largest = parallel_sum<Largest>(states.size(), threads, [&](Index i) {
-    return Largest{-states[i].x, std::abs(x_mu[i].w)};
-  });
-  const Real push = kMostPush * disc.fluid.spacing * disc.fluid.spacing;
-  const Real most = std::max(push - largest.before, Real(0));
-  const Real share = largest.added > most ? most / largest.added : 1;
+  const Real before = parallel_max(states.size(), threads, [&](Index i) { return -states[i].x; });
+  const Real added =
+      parallel_max(states.size(), threads, [&](Index i) { return std::abs(x_mu[i].w); });
+  const Real most = std::max(square(disc.fluid.spacing) - before, Real(0));
+  const Real share = added > most ? most / added : 1;
   parallel_for(states.size(), threads, [&](Index i) {
     const Real total = std::min(states[i].x + share * x_mu[i].w, Real(0));
     x_delta[i].w += total - states[i].x;

@@ -11,6 +11,9 @@ namespace {
 /// A particle with less than this share of the rest density had little that could press on it.
 constexpr Real kFreeDensity = 0.9F;
 
+/// Largest |Λ| that a step starts from, in squared spacings.
+constexpr Real kMostWarmPush = 0.5F;
+
 }  // namespace
 
 PressureErrors& PressureErrors::operator+=(const PressureErrors& other) {
@@ -34,25 +37,32 @@ void virial_pressures(const Neighborhood& near,
 }
 
 void PressureSolve::begin(const Neighborhood& near,
+                          const Discretization& disc,
+                          const SolverParams& solver,
                           const Records& x_star,
                           const Records& v_density,
                           const std::vector<Real>& totals,
-                          Real share,
                           Real dt,
                           Real last_dt,
-                          int threads,
                           Records& x_delta) {
+  const int threads = solver.num_threads;
   t_ = 1;
   states_.resize(near.fluid.size());
   x_delta.resize(x_star.size());
   // p = −ρ0 Λ/Δt² stays.
-  const Real scale = last_dt > 0 ? share * (dt / last_dt) * (dt / last_dt) : 0;
+  const Real scale = last_dt > 0 ? solver.warm_start * square(dt / last_dt) : 0;
+  const auto start = [&](Index i) {
+    return v_density[i].w < kFreeDensity ? 0 : scale * totals[static_cast<std::size_t>(i)];
+  };
+  const Real largest =
+      parallel_max(states_.size(), threads, [&](Index i) { return std::abs(start(i)); });
+  const Real most = kMostWarmPush * square(disc.fluid.spacing);
+  const Real share = largest > most ? most / largest : 1;
   parallel_for(states_.size(), threads, [&](Index i) {
-    const bool free = v_density[i].w < kFreeDensity;
-    const Real start = free ? 0 : scale * totals[static_cast<std::size_t>(i)];
-    states_[i] = {start, start, 0, 0};
+    const Real total = share * start(i);
+    states_[i] = {total, total, 0, 0};
     const Record& x = x_star[i];
-    x_delta[i] = {x.x, x.y, x.z, start};
+    x_delta[i] = {x.x, x.y, x.z, total};
   });
   near.ghosts.refresh_positions(x_delta, threads);
 }

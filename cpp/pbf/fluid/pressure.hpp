@@ -22,6 +22,10 @@ namespace pbf {
 /// as momentum does in Nesterov's method, and starts again where the last way led uphill [OC15].
 /// Corrections are the antisymmetric ones of every iteration, so the fluid's momentum is kept for
 /// any δ.
+///
+/// A step starts from Λ = s Λ_last (Δt/Δt_last)², a push along gradients of where the fluid was
+/// about to go. Where that is far, they do not hold, and what one step throws the next throws
+/// back: s is warm_start, or less, so that no Λ is larger than half a squared spacing.
 
 /// What the particles' r and ways tell about an iteration.
 struct PressureErrors {
@@ -52,18 +56,18 @@ void virial_pressures(const Neighborhood& near,
 
 class PressureSolve {
  public:
-  /// Begins a step: the first corrections are those of `share` of the last step's multipliers, for
+  /// Begins a step: the first corrections are those of a share of the last step's multipliers, for
   /// this step's length. Particles that had come free start from nothing.
   /// @param v_density  (·, ρ/ρ0) at the end of the last step
   /// @param totals     Λ of the last step, last_dt long; 0: there was none
   void begin(const Neighborhood& near,
+             const Discretization& disc,
+             const SolverParams& solver,
              const Records& x_star,
              const Records& v_density,
              const std::vector<Real>& totals,
-             Real share,
              Real dt,
              Real last_dt,
-             int threads,
              Records& x_delta);
 
   /// One iteration: (x*, δ).

@@ -20,8 +20,6 @@ namespace {
 /// Mean compression of what is no fluid any more.
 constexpr double kCrushed = 1.0;
 
-constexpr Real square(Real a) { return a * a; }
-
 std::string particle_text(const PointsView& points, Index i) {
   return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
 }
@@ -200,8 +198,8 @@ void Simulation::iterate_pressure(Real dt, StepReport& report) {
   no_repulsion.tensile_strength = 0;
   {
     const auto t = report.time(Stage::multipliers);
-    pressure_.begin(near_, x_star_, state_.v, state_.totals, solver_.warm_start, dt, last_dt_,
-                    solver_.num_threads, x_lambda_);
+    pressure_.begin(near_, disc_, solver_, x_star_, state_.v, state_.totals, dt, last_dt_,
+                    x_lambda_);
   }
   {
     const auto t = report.time(Stage::corrections);
@@ -260,19 +258,12 @@ StepReport Simulation::advance(Real seconds, const std::function<void()>& betwee
 
 /// The time in which the fastest particle, falling on, moves cfl spacings; within bounds.
 Real Simulation::cfl_time_step() const {
-  struct Fastest {
-    Real speed2 = 0;
-    Fastest& operator+=(const Fastest& other) {
-      speed2 = std::max(speed2, other.speed2);
-      return *this;
-    }
-  };
   const Vec3 fall = solver_.max_time_step * disc_.fluid.gravity;
-  const auto fastest = parallel_sum<Fastest>(size(), solver_.num_threads, [&](Index i) {
-    return Fastest{(vec3(state_.v[i]) + fall).squaredNorm()};
+  const Real speed2 = parallel_max(size(), solver_.num_threads, [&](Index i) {
+    return (vec3(state_.v[i]) + fall).squaredNorm();
   });
   const Real way = solver_.cfl * disc_.fluid.spacing;
-  const Real longest = std::min(solver_.max_time_step, way / std::sqrt(fastest.speed2));
+  const Real longest = std::min(solver_.max_time_step, way / std::sqrt(speed2));
   return std::max(solver_.min_time_step, longest);
 }
 

@@ -33,14 +33,16 @@ wall it takes more of one. The multipliers grow until their forces hold the weig
 the forces are right, and pressures are the mean virial of these, with a third of a particle's own
 for a boundary particle's. What is left: particles at side walls hold no weight, since nothing tells
 them how deep they are, so the middle carries a little more than its share, the more the narrower
-the tank, and the lowest layer reads less, for part of what it bears goes into the floor by
-collision response. Where layers are few, as in coarse tanks, the line feels that."""
+the tank: in one only 0.1 m, ten spacings, from wall to wall the bottom is 2.2 % too high in the
+middle, beyond the mark, and 1.2 % in all. And the lowest layer reads less, for part of what it
+bears goes into the floor by collision response. Where layers are few, as in coarse tanks, the line
+feels that."""
 
 
 def run(settings: Settings) -> Result:
     """Simulate and measure."""
     depth, spacing = (0.4, 0.02) if settings.quick else (1.0, 0.01)
-    width, thickness = (0.2, 0.16) if settings.quick else (0.2, 0.1)
+    width, thickness = (0.2, 0.16) if settings.quick else (0.2, 0.2)
     seconds = 2 if settings.quick else 5
     h = 2 * spacing
     settings.frames.expect(60 * seconds)
