@@ -73,6 +73,12 @@ def test_an_unknown_key_comes_with_the_name_that_was_meant(tiny, table, key, fau
         ({"duration": -1}, "duration = -1: must be > 0"),
         ({"duration": math.inf}, "duration = Infinity: must be finite"),
         ({"frame_rate": True}, "frame_rate = true: must be a number"),
+        ({"frame_rate": 1e-4}, "frame_rate = 0.0001: must be >= 0.001"),
+        ({"frame_rate": 2e6}, "frame_rate = 2000000.0: must be <= 1e+06"),
+        (
+            {"blocks": [{"lower": [0, 0, 0], "upper": [0.2] * 3, "velocity": [0, 1e39, 0]}]},
+            "blocks[0].velocity[1] = 1e+39: must be <= 1e+30",
+        ),
         ({"fluid": 3}, "fluid = 3: must be a table"),
         (
             {"fluid": {"kernel": "gauss"}},
@@ -155,6 +161,14 @@ def test_broken_toml_is_reported_with_file_and_line(tmp_path):
 def test_a_file_that_is_not_there_is_reported(tmp_path):
     with pytest.raises(SceneError, match=r"nowhere\.toml: cannot be read: No such file"):
         pbf.Scene.load(tmp_path / "nowhere.toml")
+
+
+@pytest.mark.parametrize("value", ["[" * 2000 + "]" * 2000, "9" * 5000])
+def test_more_than_the_parser_takes_is_a_fault(tmp_path, value):
+    path = tmp_path / "scene.toml"
+    path.write_text(f"schema = {value}\n")
+    with pytest.raises(SceneError, match=r"scene\.toml: not TOML: "):
+        pbf.Scene.load(path)
 
 
 def test_an_unknown_builtin_comes_with_the_name_that_was_meant():
