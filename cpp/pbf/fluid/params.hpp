@@ -144,7 +144,8 @@ struct SolverParams {
               "incompressible. Pressure method."},
         Field{"warm_start", &SolverParams::warm_start, "", between(0, 1),
               "Share of the last time step's pressure that the iterations start from. More needs "
-              "fewer iterations in calm water; near 1 errors live on and waves build up. Pressure "
+              "fewer iterations in calm water; near 1 errors live on and waves build up. Less in "
+              "long steps, where it would push by more than half a squared spacing. Pressure "
               "method."},
         Field{"levels", &SolverParams::levels, "", between(1, 2),
               "2: in the first iteration of a step, a grid of cells six spacings wide solves for "
