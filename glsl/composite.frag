@@ -169,8 +169,9 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   // A drop's far side bends the ray once more by as much as the near one. So does a sheet, behind
   // which there is air before there is more.
   vec3 twice = to_world(refract(view, n, eta * eta));
-  // Without what spheres stick out by before and behind.
-  float filled = thickness / max(straight - min(1.2 * u_radius, 0.5 * straight), 1e-6);
+  // Without what spheres stick out by before and behind, and through the wall.
+  float inner = min(straight - min(1.2 * u_radius, 0.5 * straight), to_end);
+  float filled = thickness / max(inner, 1e-6);
   float solid = body * smoothstep(0.55, 0.9, filled);
   is_bound *= body * smoothstep(0.35, 0.75, filled);
   solid = max(solid, is_bound);
@@ -319,6 +320,11 @@ float cut_at_walls(inout vec3 p, vec3 view, float back, float body, inout vec3 n
   vec3 to_far = (mix(u_tank_lower, u_tank_upper, ahead) - point) / speed + 1e9 * is_open;
   float enters = max(to_near.x, max(to_near.y, to_near.z));
   float leaves = min(to_far.x, min(to_far.y, to_far.z));
+  // It stands at the far wall as at the floor: up to the glass, without curling away from it.
+  vec3 beside = (1.0 - smoothstep(1.0, 3.0, to_far * abs(speed) / u_radius)) * sign(speed);
+  vec3 flat_n = to_world(n);
+  flat_n -= beside * max(flat_n * beside, 0.0);
+  n = normalize(mat3(u_view) * flat_n);
   if (enters > 0.0) {
     p += enters * view;
     n = mat3(u_view) * (-sign(speed) * vec3(greaterThanEqual(to_near, vec3(enters))));

@@ -139,14 +139,15 @@ void main() {
   vec3 n = normalize(cross(normalize(x.along), normalize(y.along)));
   // At the outline of a drop a difference to one side is that of half a pixel farther in, where it
   // is less steep. The drop is a sphere.
-  if (crowding < 1.0 && (x.ends || y.ends) && !x.lone && !y.lone) {
+  bool is_drop = crowding < 0.5;  // two thirds are a body's edge, or a sheet
+  if (is_drop && (x.ends || y.ends) && !x.lone && !y.lone) {
     vec3 view = ray_direction(gl_FragCoord.xy);
     vec3 own = sphere_normal(x.step, y.step, view, radius);
     n = dot(own, view) < 0.0 ? own : n;
   }
   int reach = int(min(u_radius / width, MOST_REACH));
   // Where nobody tells drops from bodies, every sphere may be alone.
-  bool is_body = crowding == 1.0 && u_drop_radius < u_radius;
+  bool is_body = !is_drop && u_drop_radius < u_radius;
   if (is_body && reach > 1) n = rim_normal(pixel, p, n, reach);
   o_normal = vec4(n, 0.0);
 }

@@ -97,7 +97,7 @@ class SurfaceOf {
     const Tangent right = tangent(x, y, 1, 0, p, radius);
     const Tangent up = tangent(x, y, 0, 1, p, radius);
     const Vec3 n = right.along.cross(up.along).normalized();
-    if (crowding == 1) {
+    if (crowding > 0.5F) {
       const auto reach = static_cast<int>(std::min(radius_ / width(p), kMostReach));
       const bool is_body = drop_radius_ < radius_;  // nobody knows otherwise
       return is_body && reach > 1 ? rim_normal(x, y, p, n, reach) : n;
