@@ -19,7 +19,7 @@ uniform sampler2D u_tint;          // weight times color and weight (tint.frag)
 uniform int u_has_tint;            // 1: the fluid has its particles' colors
 layout(location = 0) out vec4 o_color;
 
-const float SPREAD = 3.0;    // of rays from a curved surface, in that of a pixel
+const float SPREAD = 3.0;    // of rays from a body's surface, in that of a pixel
 const float MOST_WAY = 1e3;  // of a ray in the fluid [m]
 const int MESH_STEPS = 24;   // of a ray that looks for a mesh
 
@@ -263,9 +263,12 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   // Colors that mean something are not to drown in the sky's reflection.
   mirrored *= u_has_tint == 1 ? 0.3 : 1.0;
   vec3 mirror = to_world(reflect(view, n));
-  vec3 reflection = environment(MIRRORED(mirror, SPREAD), position, mirror, -p.z, SPREAD).rgb;
+  // A drop turns rays that are a pixel apart by a pixel's share of its radius.
+  float of_drop = pixels_per_meter(1.0) / (u_drop_radius * pixels_per_meter(-p.z));
+  float spread = mix(max(of_drop, SPREAD), SPREAD, body);
+  vec3 reflection = environment(MIRRORED(mirror, spread), position, mirror, -p.z, spread).rgb;
   Ray ray = refracted(p, view, n, thickness, body);
-  vec4 behind = environment(BACKDROP(ray.direction, SPREAD), ray.at, ray.direction, -p.z, SPREAD);
+  vec4 behind = environment(BACKDROP(ray.direction, spread), ray.at, ray.direction, -p.z, spread);
 #ifdef MESHES
   vec3 light;
   float way;
