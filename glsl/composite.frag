@@ -173,7 +173,7 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   float inner = min(straight - min(1.2 * u_radius, 0.5 * straight), to_end);
   float filled = thickness / max(inner, 1e-6);
   float solid = body * smoothstep(0.55, 0.9, filled);
-  is_bound *= body * smoothstep(0.35, 0.75, filled);
+  is_bound *= step(1.0, body) * smoothstep(0.35, 0.75, filled);
   solid = max(solid, is_bound);
   float length = mix(thickness, way * thickness / max(straight, 1e-6), solid);
   return Ray(mix(position + way * once, bound.at, is_bound),
