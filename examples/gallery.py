@@ -169,19 +169,22 @@ def drops() -> Image:
 
 
 def liquids() -> Image:
-    """Show what absorption and scattered light make of the same splash: water, milk and juice."""
+    """Show what absorption and scattered light make of the same splash: water, milk, honey, ink."""
     scene = pbf.Scene.load(SCENES / "crown.toml")
     state = state_of(scene, 0.075)
-    camera = {"eye": [0.5, 0.36, 0.8], "target": [0.3, 0.12, 0.3], "fov_y": 36.0}
+    camera = {"eye": [0.62, 0.42, 0.98], "target": [0.3, 0.085, 0.3], "fov_y": 30.0}
     looks = [
         {},
-        {"absorption": [120.0, 125.0, 140.0], "scatter": [0.86, 0.84, 0.78]},
-        {"absorption": [6.0, 40.0, 190.0], "scatter": [0.75, 0.24, 0.01]},
+        {"absorption": [500.0, 520.0, 620.0], "scatter": [0.80, 0.78, 0.72]},
+        {"absorption": [1.5, 11.0, 80.0], "scatter": [0.42, 0.15, 0.004], "refractive_index": 1.49},
+        {"absorption": [220.0, 150.0, 70.0], "scatter": [0.004, 0.008, 0.05]},
     ]
-    third = (SIZE[0] // 3 - 2, SIZE[1])
-    return beside(
-        *(draw(scene.replace(camera=camera, render=look), state, third) for look in looks)
+    part = (SIZE[0] // 2 - 2, SIZE[1] // 2 - 2)
+    water, milk, honey, ink = (
+        draw(scene.replace(camera=camera, render=look), state, part) for look in looks
     )
+    rows = beside(water, milk), beside(honey, ink)
+    return beside(*(row.transpose(1, 0, 2) for row in rows)).transpose(1, 0, 2)
 
 
 def smoothing() -> Image:

@@ -19,8 +19,9 @@ uniform sampler2D u_tint;          // weight times color and weight (tint.frag)
 uniform int u_has_tint;            // 1: the fluid has its particles' colors
 layout(location = 0) out vec4 o_color;
 
-const float SPREAD = 3.0;    // of rays from a curved surface, in that of a pixel
+const float SPREAD = 3.0;    // of rays from a body's surface, in that of a pixel
 const float MOST_WAY = 1e3;  // of a ray in the fluid [m]
+const int MESH_STEPS = 24;   // of a ray that looks for a mesh
 
 // Share of unpolarized light that a smooth dielectric mirrors (Fresnel); c is the cosine of
 // incidence.
@@ -54,6 +55,15 @@ float distance_to_wall(vec3 point, vec3 direction, out vec3 outward) {
   return u_has_tank == 1 ? nearest : 1e9;
 }
 
+// How far it is to the floor or the tank's bottom.
+float distance_to_ground(vec3 point, vec3 direction) {
+  float down = -dot(direction, u_up);
+  float bottom = min(dot(u_tank_lower, u_up), dot(u_tank_upper, u_up));
+  bool ends = u_has_tank == 1 && down > 1e-4;
+  float to_bottom = ends ? max(dot(point, u_up) - bottom, 0.0) / down : 1e9;
+  return min(to_bottom, distance_to_floor(point, direction));
+}
+
 // A ray of light, followed backwards.
 struct Ray {
   vec3 at;         // world space [m]
@@ -62,17 +72,35 @@ struct Ray {
   vec3 first;      // direction behind the surface
 };
 
+// Share of a ray's way that goes through fluid before it leaves it, as far as the picture knows.
+float share_in_fluid(Ray ray, float way) {
+  float share = 0.0, inside = 1.0, from = 0.0;
+  for (int k = 1; k <= 3; ++k) {
+    float to = float(k * k) / 9.0;
+    vec3 at = mat3(u_view) * (ray.at + 0.5 * (from + to) * way * ray.direction - u_eye);
+    ivec2 pixel = ivec2(clamp(pixel_of(at), vec2(0.0), u_size.xy - 1.0));
+    float front = texelFetch(u_depth, pixel, 0).r;
+    float behind = -at.z - depth_of(front);
+    float before = depth_of(texelFetch(u_back, pixel, 0).r) + at.z;
+    bool is_fluid = is_surface(front) && at.z < 0.0;
+    inside *= is_fluid ? clamp(0.5 + min(behind, before) / u_radius, 0.0, 1.0) : 0.0;
+    share += inside * (to - from);
+    from = to;
+  }
+  return share;
+}
+
 // On through the fluid to the floor, or out through a wall of the tank; a wall that it meets too
 // flat mirrors it.
 void follow_to_wall_or_floor(inout Ray ray) {
   bool inside = true;
   for (int k = 0; k < 2; ++k) {
     vec3 outward;
-    float to_floor = distance_to_floor(ray.at, ray.direction);
+    float to_floor = distance_to_ground(ray.at, ray.direction);
     float to_wall = distance_to_wall(ray.at, ray.direction, outward);
     float way = inside ? min(min(to_floor, to_wall), MOST_WAY) : 0.0;
+    ray.way += k == 0 || !inside ? way : way * share_in_fluid(ray, way);
     ray.at += way * ray.direction;
-    ray.way += way;
     vec3 bent = refract(ray.direction, -outward, u_refractive_index);
     bool mirrors = dot(bent, bent) < 0.5;
     inside = inside && to_wall < to_floor;
@@ -101,27 +129,25 @@ vec3 back_normal(ivec2 pixel, float depth) {
   return normalize(cross(right, up) + vec3(0.0, 0.0, 1e-12));
 }
 
-// Out of the fluid through a surface whose normal is against the ray: bent, mirrored where it meets
-// the surface too flat, and in between towards both by their share of the light.
+// Out of the fluid through a surface whose normal is against the ray. Where it comes too flat for
+// that, what the surface mirrors is not known: it leaves along the surface, as do rays just steep
+// enough.
 vec3 out_of(vec3 direction, vec3 n) {
   float c = clamp(-dot(direction, n), 0.0, 1.0);
-  float sine2 = u_refractive_index * u_refractive_index * (1.0 - c * c);
-  float outside = sqrt(max(1.0 - sine2, 0.0));  // cosine
-  vec3 bent = u_refractive_index * (direction + c * n) - outside * n;
-  float mirrored = sine2 < 1.0 ? fresnel(outside, u_refractive_index) : 1.0;
-  return normalize(mix(normalize(bent), reflect(direction, n), mirrored));
+  vec3 along = u_refractive_index * (direction + c * n);
+  along *= 0.99 / max(length(along), 0.99);
+  return along - sqrt(1.0 - dot(along, along)) * n;
 }
 
 // The ray from a point of the surface (eye space) to what is seen through the fluid.
-// @param to_mesh  length of the straight way to a mesh [m]
-// @param body     0 for a drop, 1 in a body of fluid
-Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float body) {
+// @param body  0 for a drop, 1 in a body of fluid
+Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   float eta = 1.0 / u_refractive_index;
   vec3 into = refract(view, n, eta);
   vec3 once = to_world(into);
   vec3 position = u_eye + to_world(p);
   vec3 outward;
-  float to_end = min(distance_to_floor(position, once), distance_to_wall(position, once, outward));
+  float to_end = min(distance_to_ground(position, once), distance_to_wall(position, once, outward));
   Ray bound = Ray(position, once, 0.0, once);
   follow_to_wall_or_floor(bound);
   // Where the bent ray comes to the far side: what stands at the pixel of a guess is the next one.
@@ -138,16 +164,18 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float b
   }
   vec3 through = to_world(out_of(into, back_normal(at, way - p.z)));
   // Fluid that reaches up to wall or floor has no far side of its own.
-  float gap = min(to_end, to_mesh) - way;
+  float gap = to_end - way;
   float is_bound = 1.0 - smoothstep(0.5 * u_radius, 3.0 * u_radius, gap);
   // A drop's far side bends the ray once more by as much as the near one. So does a sheet, behind
   // which there is air before there is more.
   vec3 twice = to_world(refract(view, n, eta * eta));
-  float filled = thickness / max(straight, 1e-6);
+  // Without what spheres stick out by before and behind, and through the wall.
+  float inner = min(straight - min(1.2 * u_radius, 0.5 * straight), to_end);
+  float filled = thickness / max(inner, 1e-6);
   float solid = body * smoothstep(0.55, 0.9, filled);
-  is_bound *= body * smoothstep(0.35, 0.75, filled);
+  is_bound *= step(1.0, body) * smoothstep(0.35, 0.75, filled);
   solid = max(solid, is_bound);
-  float length = mix(thickness, way * filled, solid);
+  float length = mix(thickness, way * thickness / max(straight, 1e-6), solid);
   return Ray(mix(position + way * once, bound.at, is_bound),
              normalize(mix(mix(twice, through, solid), bound.direction, is_bound)),
              mix(length, bound.way * min(filled, 1.0), is_bound),
@@ -155,22 +183,35 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float b
 }
 
 #ifdef MESHES
-// Where a ray from a point in eye space meets a mesh, as far as the picture knows. What stands
-// nearer than the point is nothing that it can meet.
-bool meets_mesh(vec3 p, vec3 direction, inout float way, out vec3 light) {
-  float miss = 0.0;
-  bool meets = direction.z < -0.01;
-  for (int k = 0; k < 4; ++k) {
-    ivec2 at = ivec2(clamp(pixel_of(p + way * direction), vec2(0.0), u_size.xy - 1.0));
-    float a = texelFetch(u_mesh_depth, at, 0).r;
-    float deeper = depth_of(a) + p.z;
-    meets = meets && is_surface(a) && deeper > 0.0;
-    light = texelFetch(u_mesh_light, at, 0).rgb;
-    float corrected = deeper / -direction.z;
-    miss = abs(corrected - way);
-    way = meets ? corrected : way;
+// How far a point of a ray from p lies behind the mesh that the picture shows there [m]. What
+// stands nearer than p is nothing that the ray can meet.
+float behind_mesh(vec3 p, vec3 point, out vec3 light) {
+  ivec2 pixel = ivec2(clamp(pixel_of(point), vec2(0.0), u_size.xy - 1.0));
+  float a = texelFetch(u_mesh_depth, pixel, 0).r;
+  light = texelFetch(u_mesh_light, pixel, 0).rgb;
+  return is_surface(a) && depth_of(a) > -p.z ? -point.z - depth_of(a) : -1e9;
+}
+
+// Where a ray from a point in eye space meets a mesh, as far as the picture knows: with the first
+// step that leads behind one, and not far behind; then twice nearer.
+bool meets_mesh(vec3 p, vec3 direction, float farthest, out float way, out vec3 light) {
+  float span = farthest / float(MESH_STEPS);
+  float ahead = max(-direction.z, 0.01);
+  bool meets = false;
+  way = 0.0;
+  for (int k = 0; k < MESH_STEPS && !meets; ++k) {
+    way += span;
+    float behind = behind_mesh(p, p + way * direction, light);
+    meets = behind >= 0.0 && behind < 2.0 * span * ahead;
   }
-  return meets && miss < 0.1 * way;
+  for (int k = 0; k < 2; ++k) {
+    vec3 nearer_light;
+    float behind = behind_mesh(p, p + way * direction, nearer_light);
+    bool is_nearer = abs(behind) < 2.0 * span * ahead;
+    light = is_nearer ? nearer_light : light;
+    way -= is_nearer ? behind / ahead : 0.0;
+  }
+  return meets;
 }
 #endif
 
@@ -222,13 +263,17 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   // Colors that mean something are not to drown in the sky's reflection.
   mirrored *= u_has_tint == 1 ? 0.3 : 1.0;
   vec3 mirror = to_world(reflect(view, n));
-  vec3 reflection = environment(MIRRORED(mirror, SPREAD), position, mirror, -p.z, SPREAD).rgb;
-  Ray ray = refracted(p, view, n, thickness, to_mesh, body);
-  vec4 behind = environment(BACKDROP(ray.direction, SPREAD), ray.at, ray.direction, -p.z, SPREAD);
+  // A drop turns rays that are a pixel apart by a pixel's share of its radius.
+  float of_drop = pixels_per_meter(1.0) / (u_drop_radius * pixels_per_meter(-p.z));
+  float spread = mix(max(of_drop, SPREAD), SPREAD, body);
+  vec3 reflection = environment(MIRRORED(mirror, spread), position, mirror, -p.z, spread).rgb;
+  Ray ray = refracted(p, view, n, thickness, body);
+  vec4 behind = environment(BACKDROP(ray.direction, spread), ray.at, ray.direction, -p.z, spread);
 #ifdef MESHES
   vec3 light;
-  float way = min(thickness, to_mesh);
-  if (meets_mesh(p, mat3(u_view) * ray.first, way, light)) {
+  float way;
+  float farthest = 1.3 * max(ray.way, to_mesh < 1e8 ? to_mesh : 0.0);
+  if (meets_mesh(p, mat3(u_view) * ray.first, farthest, way, light)) {
     behind = vec4(light, 1.0);
     ray.way = min(ray.way, way);
   }
@@ -260,28 +305,60 @@ float coverage(ivec2 pixel) {
   return sum / 16.0;
 }
 
+// A body's spheres stick out of the tank by less than their radius, but fluid ends at its walls.
+// What a ray meets before a wall is moved there, and what it meets behind one is not there. Fluid
+// farther outside stays where it is.
+// @param back  length of the ray's way to the far side [m]
+// @return      share of the pixel that is fluid
+float cut_at_walls(inout vec3 p, vec3 view, float back, float body, inout vec3 n) {
+  vec3 point = u_eye + to_world(p);
+  vec3 direction = to_world(view);
+  vec3 is_open = step(0.9, abs(u_up));
+  vec3 outside = (1.0 - is_open) * max(u_tank_lower - point, point - u_tank_upper);
+  bool is_outside = max(outside.x, max(outside.y, outside.z)) > u_radius;
+  if (u_has_tank == 0 || body < 1.0 || is_outside) return 1.0;
+  vec3 ahead = step(0.0, direction);
+  vec3 speed = mix(vec3(-1.0), vec3(1.0), ahead) * max(abs(direction), 1e-5);
+  vec3 to_near = (mix(u_tank_upper, u_tank_lower, ahead) - point) / speed - 1e9 * is_open;
+  vec3 to_far = (mix(u_tank_lower, u_tank_upper, ahead) - point) / speed + 1e9 * is_open;
+  float enters = max(to_near.x, max(to_near.y, to_near.z));
+  float leaves = min(to_far.x, min(to_far.y, to_far.z));
+  // It stands at the far wall as at the floor: up to the glass, without curling away from it.
+  vec3 beside = (1.0 - smoothstep(1.0, 3.0, to_far * abs(speed) / u_radius)) * sign(speed);
+  vec3 flat_n = to_world(n);
+  flat_n -= beside * max(flat_n * beside, 0.0);
+  n = normalize(mat3(u_view) * flat_n);
+  if (enters > 0.0) {
+    p += enters * view;
+    n = mat3(u_view) * (-sign(speed) * vec3(greaterThanEqual(to_near, vec3(enters))));
+    leaves = min(leaves, back) - enters;
+  }
+  return clamp(0.5 + 0.5 * leaves * pixels_per_meter(-p.z), 0.0, 1.0);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 view = normalize(ray_direction(gl_FragCoord.xy));
   float a = texelFetch(u_depth, pixel, 0).r;
   float share = is_surface(a) ? clamp(1.8 * coverage(pixel) - 0.55, 0.0, 1.0) : 0.0;
   vec3 p = eye_position(gl_FragCoord.xy, is_surface(a) ? depth_of(a) : 1.0);
+  vec3 n = texelFetch(u_normal, pixel, 0).xyz;
+  // What is crowded by two thirds is a body's edge.
+  float body = min(1.5 * crowding_of(texelFetch(u_spheres, pixel, 0).r), 1.0);
+  share *= cut_at_walls(p, view, (p.z - back_at(pixel, -p.z).z) / -view.z, body, n);
   // The floor hides what sticks out below it.
   if (is_below_floor(u_eye + to_world(p))) share = 0.0;
-  vec3 n = texelFetch(u_normal, pixel, 0).xyz;
   float thickness = texelFetch(u_thickness, pixel, 0).r;
   // Where a lone sprite thins out there is less than a particle: fading it takes the beads off the
   // outline.
   share *= smoothstep(0.1, 0.8, thickness / u_sprite_thickness);
   float to_mesh = 1e9;
 #ifdef MESHES
-  // Meshes hide the fluid behind them, and cut its thickness.
+  // Meshes hide the fluid behind them.
   float mesh = texelFetch(u_mesh_depth, pixel, 0).r;
   if (mesh > a) share = 0.0;
   if (is_surface(mesh)) to_mesh = max((depth_of(mesh) + p.z) / -view.z, 0.0);
-  thickness = min(thickness, to_mesh);
 #endif
-  float body = crowding_of(texelFetch(u_spheres, pixel, 0).r);
   Shade shade = fluid(p, view, n, thickness, to_mesh, body, normal_behind(pixel, -p.z));
   // One alpha for three channels: that of the clearest would let the colors of others through, so
   // the least clear one has it, and the rest is what background_color adds to the others.

@@ -7,6 +7,11 @@ uniform float u_radius;       // of a sphere in a body of fluid [m]
 uniform float u_drop_radius;  // of one alone [m]
 layout(location = 0) out vec4 o_normal;
 
+const float MOST_REACH = 64.0;  // of a ring [pixels]
+// From the pixel to the middle of its neighbors at an outline, in the ring's radius: with this the
+// normals of balls are nearest to the true ones (docs/smoothing.md).
+const float MIDDLE_AT_OUTLINE = 0.57;
+
 vec3 position(ivec2 pixel, out bool exists) {
   bool inside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(u_size.xy)));
   float a = texelFetch(u_values, clamp(pixel, ivec2(0), ivec2(u_size.xy) - 1), 0).r;
@@ -55,6 +60,71 @@ vec3 sphere_normal(vec3 a, vec3 b, vec3 view, float radius) {
   return height2 > 0.0 ? (sqrt(height2) * n - c) / radius : vec3(0.0);
 }
 
+// What eight neighbors around and the pixel say, weighted as the bilateral filter does.
+struct Ring {
+  float count, rise;  // sums of weights, and of weights times differences of affine depth
+  vec2 sum, slope;    // those of weight times distance [pixels], and times difference
+  vec3 spread;        // of weight times distance times distance: xx, xy, yy
+  vec2 gone;          // of distances to where there is nothing, or only what is farther away
+};
+
+// @param farther, nearer  how much less or more affine depth is another surface's
+void add(inout Ring ring, ivec2 pixel, ivec2 offset, float a, float farther, float nearer) {
+  ivec2 at = clamp(pixel + offset, ivec2(0), ivec2(u_size.xy) - 1);
+  float difference = texelFetch(u_values, at, 0).r - a;
+  float u = difference / (difference > 0.0 ? nearer : farther);
+  float keep = max(1.0 - u * u, 0.0);
+  vec2 x = vec2(at - pixel);
+  vec2 weighted = keep * keep * x;
+  ring.count += keep * keep;
+  ring.rise += keep * keep * difference;
+  ring.sum += weighted;
+  ring.slope += difference * weighted;
+  ring.spread += weighted.xxy * x.xyy;
+  ring.gone += difference < 0.0 ? min(u * u * u * u, 1.0) * x : vec2(0.0);
+}
+
+// The normal where a body of fluid ends within a sprite's radius. The filter knows one side only
+// there, and what it makes of the spheres' outlines is rough; the plane that fits the neighbors
+// best is not. It is that of their middle. From there to the outline the body curls away until the
+// view grazes it: as on a sphere, the square of the cosine between view and normal falls in
+// proportion to the distance from the outline.
+// @param n      by differences
+// @param reach  a sprite's radius [pixels]
+vec3 rim_normal(ivec2 pixel, vec3 p, vec3 n, int reach) {
+  float a = texelFetch(u_values, pixel, 0).r;
+  float down = farther(a, u_range), up = nearer(a, u_range);
+  Ring ring = Ring(1.0, 0.0, vec2(0.0), vec2(0.0), vec3(0.0), vec2(0.0));
+  ivec2 straight = ivec2(reach, 0), diagonal = ivec2((7 * reach + 5) / 10);
+  for (int k = 0; k < 4; ++k) {
+    add(ring, pixel, straight, a, down, up);
+    add(ring, pixel, diagonal, a, down, up);
+    straight = ivec2(-straight.y, straight.x);
+    diagonal = ivec2(-diagonal.y, diagonal.x);
+  }
+  vec2 middle = ring.sum / ring.count;
+  vec3 spread = ring.spread - ring.sum.xxy * middle.xyy;
+  vec2 slope = ring.slope - ring.rise * middle;
+  float determinant = spread.x * spread.z - spread.y * spread.y;
+  float gone = length(ring.gone);
+  // Neighbors nearly in a line do not tell a plane.
+  float radius2 = float(reach * reach);
+  float known = smoothstep(0.05, 0.3, determinant / (radius2 * radius2));
+  if (known == 0.0 || gone == 0.0) return n;
+  vec2 rise = (spread.zx * slope - spread.y * slope.yx) / determinant;  // to the next pixels
+  vec2 at = gl_FragCoord.xy;
+  vec3 plane = normalize(cross(eye_position(at + vec2(1.0, 0.0), depth_of(a + rise.x)) - p,
+                               eye_position(at + vec2(0.0, 1.0), depth_of(a + rise.y)) - p));
+  vec3 view = normalize(ray_direction(at));
+  float cosine = clamp(-dot(plane, view), 0.0, 1.0);
+  vec3 across = normalize(plane + cosine * view);
+  float inwards = max(-dot(middle, ring.gone) / gone, 0.0) / float(reach);
+  float to_outline = max(1.0 - inwards / MIDDLE_AT_OUTLINE, 0.5 / float(reach));
+  cosine *= sqrt(to_outline / (to_outline + inwards));
+  vec3 own = sqrt(1.0 - cosine * cosine) * across - cosine * view;
+  return normalize(mix(n, own, known * min(gone / float(reach), 1.0)));
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   bool exists;
@@ -69,10 +139,15 @@ void main() {
   vec3 n = normalize(cross(normalize(x.along), normalize(y.along)));
   // At the outline of a drop a difference to one side is that of half a pixel farther in, where it
   // is less steep. The drop is a sphere.
-  if (crowding < 1.0 && (x.ends || y.ends) && !x.lone && !y.lone) {
+  bool is_drop = crowding < 0.5;  // two thirds are a body's edge, or a sheet
+  if (is_drop && (x.ends || y.ends) && !x.lone && !y.lone) {
     vec3 view = ray_direction(gl_FragCoord.xy);
     vec3 own = sphere_normal(x.step, y.step, view, radius);
     n = dot(own, view) < 0.0 ? own : n;
   }
+  int reach = int(min(u_radius / width, MOST_REACH));
+  // Where nobody tells drops from bodies, every sphere may be alone.
+  bool is_body = !is_drop && u_drop_radius < u_radius;
+  if (is_body && reach > 1) n = rim_normal(pixel, p, n, reach);
   o_normal = vec4(n, 0.0);
 }

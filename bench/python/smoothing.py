@@ -180,6 +180,54 @@ def accuracy() -> Table:
     return rows
 
 
+def outlines() -> Table:
+    """Angle of the normals' errors [degrees] by pixels from a ball's outline, in a sprite's width.
+
+    By differences alone, as where no drop_radius tells bodies from drops, and as they are.
+    """
+    rows: Table = {}
+    for radius, distance in ((0.25, 1.6), (0.12, 1.6), (0.12, 0.7)):
+        surface, view = ball(radius), camera(45, distance)
+        row: Table = {}
+        for name, drop_radius in (("differences", None), ("rim", 0.62 * D)):
+            with pbf.Renderer(*SIZE) as renderer:
+                chosen = params("bilateral", drop_radius=drop_radius)
+                layers = renderer.layers(surface.particles, view, chosen)
+            ways = [0, 1, 2, 4, 8]
+            inside = [within(layers["depth"] > 0, way) for way in ways]
+            angle = angle_to_ball(layers["normal"].astype(float), inside[0], view)
+            row[name] = {
+                str(way): float(np.mean(angle[outer & ~inner]))
+                for way, outer, inner in zip(ways[1:], inside[:-1], inside[1:], strict=True)
+            }
+        pixels = D * SIZE[1] / (2 * half_height(view) * np.linalg.norm(view.eye))
+        rows[f"{radius:g} m, sprites of {pixels:.0f} pixels"] = row
+    return rows
+
+
+def within(fluid: Array, way: int) -> Array:
+    """Pixels that are farther than a number of pixels from where there is no fluid."""
+    for _ in range(way):
+        around = [np.roll(fluid, (x, y), (0, 1)) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+        fluid = np.logical_and.reduce(around)
+    return fluid
+
+
+def angle_to_ball(normals: Array, fluid: Array, view: pbf.Camera) -> Array:
+    """Angle to the normals of the ball around the origin that has the fluid's outline [degrees]."""
+    eye = np.array(view.eye)
+    rays = world(np.ones_like(normals[..., 0]), view) - eye
+    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+    nearest = eye - (rays @ eye)[..., None] * rays
+    miss = np.linalg.norm(nearest, axis=-1)
+    radius = np.percentile(miss[fluid], 99.9)
+    half_chord = np.sqrt(np.maximum(radius**2 - miss**2, 0))
+    truth = nearest - half_chord[..., None] * rays
+    truth /= np.linalg.norm(truth, axis=-1, keepdims=True)
+    cosine = np.sum(normals @ frame_of(view).T * truth, axis=-1)
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+
+
 def resolutions() -> Table:
     """Errors on the pool by the height of the picture: the same, if lengths are in the world."""
     surface, view = pool(), camera()
@@ -292,7 +340,7 @@ def on_picture(point: Array, view: pbf.Camera) -> Array:
 def measure() -> Table:
     start = time.perf_counter()
     results: Table = {"commit": commit(), "processor": processor()}
-    for part in (times, accuracy, shapes, resolutions, iterations, separation):
+    for part in (times, accuracy, outlines, shapes, resolutions, iterations, separation):
         results[part.__name__] = part()
         print(f"{time.perf_counter() - start:6.0f} s  {part.__name__}", flush=True)
     return results
@@ -385,6 +433,11 @@ def summary(results: Table) -> str:
         for name, error in row.items():
             numbers = f"{error['angle']:.1f}° | {error['rough']:.3f} | {error['offset']:+.2f}"
             lines.append(f"| {label}, {name} | {numbers} |")
+    lines += ["", "| ball, pixels from the outline | 1 | 2 | 3-4 | 5-8 |", "|---|---|---|---|---|"]
+    for label, row in results["outlines"].items():
+        for name, error in row.items():
+            cells = " | ".join(f"{angle:.1f}°" for angle in error.values())
+            lines.append(f"| {label}, {name} | {cells} |")
     ms = results["times"]["milliseconds"]
     lines.append(
         "| processor time at 1280×720 [ms] | | "

@@ -229,6 +229,30 @@ def test_all_backends_find_the_same_layers(orthographic):
             assert (difference > tolerance).mean() < 1e-4, name
 
 
+@pytest.mark.parametrize("backend", ["egl", "cpu"])
+def test_at_the_outline_of_a_ball_of_fluid_normals_are_the_balls(backend):
+    d = 0.02
+    lattice = np.stack(np.meshgrid(*[np.arange(-7, 8) * d] * 3), axis=-1).reshape(-1, 3)
+    ball = lattice + np.random.default_rng(2).uniform(-0.2 * d, 0.2 * d, lattice.shape)
+    ball = ball[np.linalg.norm(ball, axis=1) < 0.11]
+    camera = pbf.Camera(eye=(0, 0, 5), target=(0, 0, 0), orthographic=True, height=0.3)
+    params = pbf.RenderParams(radius=d, drop_radius=0.62 * d, particle_volume=d**3)
+    with pbf.Renderer(240, 240, backend=backend) as renderer:
+        layers = renderer.layers(ball, camera, params)
+    fluid = layers["depth"] > 0
+    inner = fluid.copy()
+    for shift, axis in ((1, 0), (-1, 0), (1, 1), (-1, 1)):
+        inner &= np.roll(fluid, shift, axis)
+    at = (np.arange(240) + 0.5) * (0.3 / 240) - 0.15
+    out = np.stack(np.meshgrid(at, -at), axis=-1)[fluid & ~inner]
+    radius = np.linalg.norm(out, axis=1)
+    largest = radius.max()  # of the ball with its spheres
+    normal = np.column_stack([out, np.sqrt(largest**2 - radius**2)]) / largest
+    cosine = (layers["normal"][fluid & ~inner] * normal).sum(axis=1)
+    assert len(radius) > 400
+    assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean() < 11  # 21 by differences
+
+
 def test_pictures_of_both_ways_to_the_surface_are_the_same():
     cloud, camera, params = splash()
     images = []
