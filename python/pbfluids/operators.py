@@ -22,7 +22,7 @@ Parameters common to all:
 positions : array_like, shape (n, 3)
     [m], finite.
 support_radius : float
-    Kernel support radius h [m], > 0; about twice the particle distance.
+    Kernel support radius h [m], 1e-6 to 1e6; about twice the particle distance.
 volume : float, optional
     Particle volume V [m^3]; by default that of the rest lattice of spacing h/2.
 kernel : "poly6_spiky" or "cubic_spline"
@@ -79,7 +79,7 @@ def density(
     positions : array_like, shape (n, 3)
         [m].
     support_radius : float
-        Kernel support radius h [m], > 0.
+        Kernel support radius h [m], 1e-6 to 1e6.
     rest_density : float
         Density of the rest lattice [kg/m^3]; 1 gives the ratio to it.
     volume, kernel, num_threads
@@ -114,7 +114,7 @@ def gradient(
     positions : array_like, shape (n, 3)
         [m].
     support_radius : float
-        Kernel support radius h [m], > 0.
+        Kernel support radius h [m], 1e-6 to 1e6.
     corrected : bool
         Exact for linear fields. Without it a gradient is the plain sum, which in the bulk of a
         lattice is 0.947 (poly6_spiky) or 1.020 (cubic_spline) of the truth at h = 2 spacings, and
@@ -151,7 +151,7 @@ def jacobian(
     positions : array_like, shape (n, 3)
         [m].
     support_radius : float
-        Kernel support radius h [m], > 0.
+        Kernel support radius h [m], 1e-6 to 1e6.
     corrected : bool
         Exact for linear fields. Without it a gradient is the plain sum, which in the bulk of a
         lattice is 0.947 (poly6_spiky) or 1.020 (cubic_spline) of the truth at h = 2 spacings, and
@@ -188,7 +188,7 @@ def divergence(
     positions : array_like, shape (n, 3)
         [m].
     support_radius : float
-        Kernel support radius h [m], > 0.
+        Kernel support radius h [m], 1e-6 to 1e6.
     corrected : bool
         Exact for linear fields. Without it a gradient is the plain sum, which in the bulk of a
         lattice is 0.947 (poly6_spiky) or 1.020 (cubic_spline) of the truth at h = 2 spacings, and
@@ -225,7 +225,7 @@ def curl(
     positions : array_like, shape (n, 3)
         [m].
     support_radius : float
-        Kernel support radius h [m], > 0.
+        Kernel support radius h [m], 1e-6 to 1e6.
     corrected : bool
         Exact for linear fields. Without it a gradient is the plain sum, which in the bulk of a
         lattice is 0.947 (poly6_spiky) or 1.020 (cubic_spline) of the truth at h = 2 spacings, and
@@ -261,7 +261,7 @@ def laplacian(
     positions : array_like, shape (n, 3)
         [m].
     support_radius : float
-        Kernel support radius h [m], > 0.
+        Kernel support radius h [m], 1e-6 to 1e6.
     volume, kernel, num_threads
         See the module.
 

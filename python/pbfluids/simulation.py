@@ -153,9 +153,10 @@ class Simulation:
         Parameters
         ----------
         positions : array_like, shape (n, 3)
-            [m], finite and within the domain; what lies on the upper face of a periodic axis is
-            moved to the lower one, which is the same place. In 2-D all have the same z, that of the
-            first particle ever added, and z of the domain does not matter.
+            [m], finite, within the domain and 2^20 support radii of the origin; what lies on the
+            upper face of a periodic axis is moved to the lower one, which is the same place. In 2-D
+            all have the same z, that of the first particle ever added, and z of the domain does not
+            matter.
         velocities : array_like, shape (n, 3), optional
             [m/s], finite; in 2-D z is 0. At rest if not given.
 
@@ -181,7 +182,7 @@ class Simulation:
         Parameters
         ----------
         dt : float
-            Time step [s], > 0. A particle should move less than half a support radius in it.
+            Time step [s], >= 1e-15. A particle should move less than half a support radius in it.
 
         Returns
         -------
@@ -191,9 +192,10 @@ class Simulation:
         Raises
         ------
         InvalidParameter
-            If ``dt`` is not finite and positive.
+            If ``dt`` is not finite or too short.
         SimulationFailed
-            If positions stop being finite or particles pile up. The state is that before the call.
+            If positions stop being finite or particles pile up. The state is that before the call,
+            to the bits of the steps that follow.
 
         Warns
         -----
@@ -217,7 +219,7 @@ class Simulation:
         Parameters
         ----------
         seconds : float
-            Length of a frame [s], > 0.
+            Length of a frame [s], >= 1e-12.
         frames : int
             How many, >= 1.
         progress : callable, optional

@@ -240,6 +240,8 @@ def test_particles_may_come_in_any_order() -> None:
         ({"support_radius": 0.0}, "support_radius"),
         ({"support_radius": -1.0}, "support_radius"),
         ({"support_radius": float("nan")}, "support_radius"),
+        ({"support_radius": 0.9e-6}, "support_radius"),
+        ({"support_radius": 1.1e6}, "support_radius"),
         ({"volume": 0.0}, "volume"),
         ({"volume": -1.0}, "volume"),
         ({"volume": float("inf")}, "volume"),
@@ -251,6 +253,7 @@ def test_particles_may_come_in_any_order() -> None:
         ({"values": np.full(8, np.nan)}, "values"),
         ({"positions": np.zeros((8, 2))}, "positions"),
         ({"positions": np.full((8, 3), np.inf)}, "positions"),
+        ({"positions": np.full((8, 3), 2**20 * H * 1.001)}, "positions: particle 0 at"),
     ],
 )
 def test_bad_input_is_refused_by_name(changes: dict[str, Any], named: str) -> None:
@@ -258,6 +261,23 @@ def test_bad_input_is_refused_by_name(changes: dict[str, Any], named: str) -> No
     pbf.operators.gradient(**good)
     with pytest.raises(errors.InvalidParameter, match=named):
         pbf.operators.gradient(**{**good, **changes})
+
+
+@pytest.mark.parametrize("operator", [*FIELDS, "density"])
+@pytest.mark.parametrize("h", [2.0**-19, 2.0**19])
+def test_a_power_of_two_in_scale_changes_no_bit(operator: str, h: float) -> None:
+    x = as_float32(jittered_block(4, 0.5, seed=59))
+    power = {"density": 0, "laplacian": 2}.get(operator, 1)
+
+    def at_scale(scale: float) -> NDArray[np.float64]:
+        places = x * scale
+        if operator == "density":
+            return np.float64(pbf.operators.density(places, support_radius=scale))
+        values = value_for(operator, x)
+        result = getattr(pbf.operators, operator)(values, places, support_radius=scale)
+        return result * scale**power
+
+    np.testing.assert_array_equal(at_scale(h), at_scale(1.0))
 
 
 @pytest.mark.parametrize("values", [["a"] * 8, np.zeros(8, complex), None])

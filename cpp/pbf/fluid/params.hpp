@@ -32,7 +32,7 @@ struct FluidParams {
         Field{"support_radius", &FluidParams::support_radius, "m", above(0),
               "Kernel support radius h, 2 * spacing if not given. Larger is smoother, slower and "
               "rounder."},
-        Field{"rest_density", &FluidParams::rest_density, "kg/m^3", above(0),
+        Field{"rest_density", &FluidParams::rest_density, "kg/m^3", inside(0, 1e12),
               "Density at rest. Scales masses, densities and pressures; the motion does not depend "
               "on it."},
         Field{"gravity", &FluidParams::gravity, "m/s^2", between(-1e6, 1e6),
@@ -138,7 +138,7 @@ struct SolverParams {
         Field{"max_tolerance", &SolverParams::max_tolerance, "", inside(0, 100),
               "Compression of the worst particle that must be reached as well. Iterations are for "
               "all particles, so a small one is dear. Near 100 the mean alone decides."},
-        Field{"compliance", &SolverParams::compliance, "s^2/m^2", at_least(0),
+        Field{"compliance", &SolverParams::compliance, "s^2/m^2", between(0, 1e6),
               "Softness of the fluid: density / rest_density - 1 = compliance * pressure / "
               "rest_density, whatever the time step. One over the speed of sound squared; 0 is "
               "incompressible. Pressure method."},
@@ -164,9 +164,9 @@ struct SolverParams {
         Field{"cfl", &SolverParams::cfl, "", inside(0, 10),
               "Adaptive time step: how far the fastest particle may move in a step, as a share of "
               "the spacing."},
-        Field{"min_time_step", &SolverParams::min_time_step, "s", above(0),
+        Field{"min_time_step", &SolverParams::min_time_step, "s", above(1e-13),
               "Adaptive time step: never shorter than this, but for the last one of a frame."},
-        Field{"max_time_step", &SolverParams::max_time_step, "s", above(0),
+        Field{"max_time_step", &SolverParams::max_time_step, "s", above(1e-13),
               "Adaptive time step: never longer than this."},
         Field{"relaxation", &SolverParams::relaxation, "", at_least(0),
               "Added to the multiplier's denominator, as a share of its value on the rest lattice. "

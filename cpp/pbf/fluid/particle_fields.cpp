@@ -8,6 +8,9 @@
 namespace pbf {
 namespace {
 
+/// Beyond, the derivatives' powers of h are more, or less, than a float holds [m].
+constexpr Range kSupportRadii = between(static_cast<double>(1e-6F), 1e6);
+
 void require_count(Index got, Index expected) {
   if (got != expected) {
     throw InvalidParameter("values: " + std::to_string(got) + " rows, but positions has " +
@@ -19,8 +22,8 @@ void require_count(Index got, Index expected) {
 
 ParticleFields::ParticleFields(const PointsView& positions, Real h, const Options& options)
     : options_(options), h_(h) {
-  if (!(h > 0) || !std::isfinite(h)) {
-    throw InvalidParameter("support_radius = " + to_text(h) + " m: must be finite, > 0");
+  if (!kSupportRadii.contains(static_cast<double>(h))) {
+    throw InvalidParameter("support_radius = " + to_text(h) + " m: " + kSupportRadii.text());
   }
   if (!(options.volume >= 0) || !std::isfinite(options.volume)) {
     throw InvalidParameter("volume = " + to_text(options.volume) + " m^3: must be finite, > 0");
@@ -29,7 +32,12 @@ ParticleFields::ParticleFields(const PointsView& positions, Real h, const Option
     const double radius = static_cast<double>(h);
     options_.volume = static_cast<Real>(calibrate(options.kernel, 3, radius / 2, radius).volume);
   }
-  if (!positions.allFinite()) throw InvalidParameter("positions: must be finite");
+  for (Index i = 0; i < positions.cols(); ++i) {
+    const Vec3 x = positions.col(i);
+    if (CellGrid::reaches(x, h)) continue;
+    throw InvalidParameter("positions: particle " + std::to_string(i) + " at " + to_text(x) +
+                           " m; " + CellGrid::reach_text(h));
+  }
   grid_.build(records_of(positions), h, options.num_threads);
   x_ = gathered(Points(positions), grid_.order());
   near_.build(grid_, records_of(x_), h, options.num_threads);

@@ -18,7 +18,8 @@ class ParticleFields {
                              ///< for linear fields
     int num_threads = 0;
   };
-  /// Throws InvalidParameter if h is not positive, the volume negative or a position not finite.
+  /// Throws InvalidParameter if h is not from 1e-6 to 1e6, the volume negative or a position not
+  /// finite or beyond what CellGrid reaches.
   ParticleFields(const PointsView& positions, Real h, const Options& options);
 
   [[nodiscard]] Scalars relative_density() const;  ///< V Σ_j W_ij, j includes i     [–]

@@ -20,6 +20,18 @@ namespace {
 /// Mean compression of what is no fluid any more.
 constexpr double kCrushed = 1.0;
 
+/// Shortest time step: with less, 1/dt² in pressures is more than a float holds. A frame may have a
+/// thousand steps [s].
+constexpr Real kShortestStep = 1e-15F;
+constexpr Real kShortestFrame = 1000 * kShortestStep;
+
+void require_time(const char* name, Real time, Real shortest) {
+  if (!(time >= shortest) || !std::isfinite(time)) {
+    throw InvalidParameter(std::string(name) + " = " + to_text(time) +
+                           " s: " + at_least(static_cast<double>(shortest)).text());
+  }
+}
+
 std::string particle_text(const PointsView& points, Index i) {
   return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
 }
@@ -68,6 +80,10 @@ Ids Simulation::add_particles(const PointsView& positions,
                              " m/s; must be finite");
     }
     if (disc_.fluid.dimensions == 2) require_plane(positions, velocities, i);
+    if (!CellGrid::reaches(x, disc_.h)) {
+      throw InvalidParameter("positions: " + particle_text(positions, i) + " m; " +
+                             CellGrid::reach_text(disc_.h));
+    }
     if (!disc_.contains(x)) {
       throw InvalidParameter("positions: " + particle_text(positions, i) +
                              " m is outside the domain; must be within " +
@@ -117,9 +133,7 @@ void Simulation::require_plane(const PointsView& positions,
 }
 
 StepReport Simulation::step(Real dt) {
-  if (!(dt > 0) || !std::isfinite(dt)) {
-    throw InvalidParameter("dt = " + to_text(dt) + " s: must be finite, > 0");
-  }
+  require_time("dt", dt, kShortestStep);
   const int threads = solver_.num_threads;
   StepReport report;
   {
@@ -129,6 +143,31 @@ StepReport Simulation::step(Real dt) {
   {
     const auto t = report.time(Stage::neighbors);
     sort_by_cell(dt);
+  }
+  try {
+    step_sorted(dt, report);
+  } catch (...) {
+    unsort();
+    throw;
+  }
+  // The ghosts' time is over.
+  x_star_.resize(size());
+  v_new_.resize(size());
+  wrap(disc_.domain, x_star_, threads);
+  state_.x.swap(x_star_);
+  state_.v.swap(v_new_);
+  state_.totals.swap(new_totals_);
+  last_dt_ = dt;
+  time_ += static_cast<double>(dt);
+  ++step_count_;
+  return report;
+}
+
+/// The step from the neighbor lists on: (x*, λ) and (v, ρ/ρ0) of its end.
+void Simulation::step_sorted(Real dt, StepReport& report) {
+  const int threads = solver_.num_threads;
+  {
+    const auto t = report.time(Stage::neighbors);
     near_.ghosts.refresh_positions(x_star_, threads);
     near_.fluid.build(grid_, x_star_, disc_.h, threads);
   }
@@ -164,17 +203,6 @@ StepReport Simulation::step(Real dt) {
     const auto t = report.time(Stage::density);
     measure(report);
   }
-  // The ghosts' time is over.
-  x_star_.resize(size());
-  v_new_.resize(size());
-  wrap(disc_.domain, x_star_, threads);
-  state_.x.swap(x_star_);
-  state_.v.swap(v_new_);
-  state_.totals.swap(new_totals_);
-  last_dt_ = dt;
-  time_ += static_cast<double>(dt);
-  ++step_count_;
-  return report;
 }
 
 void Simulation::iterate_plain(StepReport& report) {
@@ -228,9 +256,7 @@ void Simulation::iterate_pressure(Real dt, StepReport& report) {
 }
 
 StepReport Simulation::advance(Real seconds, const std::function<void()>& between_steps) {
-  if (!(seconds > 0) || !std::isfinite(seconds)) {
-    throw InvalidParameter("seconds = " + to_text(seconds) + " s: must be finite, > 0");
-  }
+  require_time("seconds", seconds, kShortestFrame);
   if (solver_.time_step == TimeStep::fixed) {
     const Real dt = seconds / static_cast<Real>(solver_.substeps);
     StepReport report = step(dt);
@@ -240,13 +266,14 @@ StepReport Simulation::advance(Real seconds, const std::function<void()>& betwee
     }
     return report;
   }
-  const double end = time_ + static_cast<double>(seconds);
   std::optional<StepReport> report;
-  for (double left = seconds; left > 1e-6 * seconds; left = end - time_) {
+  for (double left = seconds; left > 1e-6 * seconds;) {
     if (report && between_steps) between_steps();
     // Equal parts of what is left: no short step at the end.
     const double parts = std::ceil(left / static_cast<double>(cfl_time_step()) - 1e-6);
-    const StepReport latest = step(static_cast<Real>(left / std::max(parts, 1.0)));
+    const auto dt = static_cast<Real>(left / std::max(parts, 1.0));
+    const StepReport latest = step(dt);
+    left -= static_cast<double>(dt);
     if (report) {
       report->add(latest);
     } else {
@@ -268,8 +295,7 @@ Real Simulation::cfl_time_step() const {
 }
 
 /// Sorts the state by the cells of x*, and predicts x* and u again, which is cheaper than to bring
-/// them into the new order. Which particle is which stays as it was: a step that fails
-/// here or later has changed nothing that can be seen.
+/// them into the new order.
 void Simulation::sort_by_cell(Real dt) {
   const int threads = solver_.num_threads;
   near_.sort(x_star_, disc_, threads, grid_);
@@ -293,6 +319,26 @@ void Simulation::sort_by_cell(Real dt) {
   state_.ids.swap(sorted_ids_);
   state_.totals.swap(new_totals_);
   wrap(disc_.domain, x_star_, threads);
+}
+
+/// Undoes it after a step that failed: the order of particles is that of sums, so that of a state
+/// in another order the same steps would have other bits.
+void Simulation::unsort() {
+  Records &x = x_lambda_, &v = v_new_;
+  x.resize(size());
+  v.resize(size());
+  for (Index k = 0; k < size(); ++k) {
+    const auto from = static_cast<std::size_t>(k);
+    const std::uint32_t to = grid_.order()[from];
+    x[to] = state_.x[k];
+    v[to] = state_.v[k];
+    sorted_ids_[to] = state_.ids[from];
+    new_totals_[to] = state_.totals[from];
+  }
+  state_.x.swap(x);
+  state_.v.swap(v);
+  state_.ids.swap(sorted_ids_);
+  state_.totals.swap(new_totals_);
 }
 
 /// Density errors at the positions the step ends with, from (v, ρ/ρ0); throws if any number is not

@@ -21,15 +21,15 @@ class Simulation {
                       const std::optional<Box>& domain = {});
 
   /// Copies particles in, at rest if no velocities are given; on the upper face of a periodic axis,
-  /// which is the lower one, they come to lie on that. Returns their ids, consecutive
-  /// numbers. Throws InvalidParameter if a value is not finite, a position outside the domain, in
-  /// 2-D also outside the plane of the first particle, or a velocity out of that plane, or if the
-  /// counts differ.
+  /// which is the lower one, they come to lie on that. Returns their ids, consecutive numbers.
+  /// Throws InvalidParameter if a value is not finite, a position outside the domain or beyond what
+  /// CellGrid reaches, in 2-D also outside the plane of the first particle, or a velocity out of
+  /// that plane, or if the counts differ.
   Ids add_particles(const PointsView& positions, const std::optional<Points>& velocities = {});
 
   /// One time step of dt seconds: Algorithm 1 of [MM13]. Throws InvalidParameter unless dt is
-  /// finite and positive, and SimulationFailed if positions stop being finite or particles pile up;
-  /// the state is then that before the call.
+  /// finite and at least 1e-15, and SimulationFailed if positions stop being finite or particles
+  /// pile up; the state is then that before the call, to the bits of the steps that follow.
   StepReport step(Real dt);
 
   /// One frame of `seconds`, in solver().substeps steps, or in as many as an adaptive time step
@@ -63,6 +63,8 @@ class Simulation {
                      const std::optional<Points>& velocities,
                      Index i) const;
   void sort_by_cell(Real dt);
+  void unsort();
+  void step_sorted(Real dt, StepReport& report);
   void iterate_plain(StepReport& report);
   void iterate_pressure(Real dt, StepReport& report);
   void measure(StepReport& report);

@@ -1,8 +1,8 @@
 #include "pbf/neighbors/cell_grid.hpp"
 
-#include "pbf/core/error.hpp"
+#include "pbf/core/fields.hpp"
 #include "pbf/core/parallel.hpp"
-#include "pbf/core/types.hpp"
+#include "pbf/neighbors/reorder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -30,20 +30,28 @@ struct Bounds {
 
 Eigen::Array3d coordinates(const Record& x) { return {x.x, x.y, x.z}; }
 
-Bounds bounds_of(const Records& x, double farthest, int threads) {
+Bounds bounds_of(const Records& x, Real h, int threads) {
   return parallel_sum<Bounds>(x.size(), threads, [&](Index i) {
     const Eigen::Array3d p = coordinates(x[i]);
-    if (!(p.abs() <= farthest).all()) {  // false for NaN as well
-      throw SimulationFailed(
-          "particle positions: (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " +
-          std::to_string(p[2]) + ") m is not within " + std::to_string(farthest) +
-          " m (2^20 support radii) of the origin; use a smaller time step or a domain");
+    if (!CellGrid::reaches(vec3(x[i]), h)) {
+      throw SimulationFailed("particle positions: " + to_text(vec3(x[i])) + " m; " +
+                             CellGrid::reach_text(h) + "; use a smaller time step or a domain");
     }
     return Bounds{p, p};
   });
 }
 
 }  // namespace
+
+bool CellGrid::reaches(const Vec3& x, Real h) {
+  // False for what is no number as well.
+  return (x.cast<double>().array().abs() <= kFarthestCell * static_cast<double>(h)).all();
+}
+
+std::string CellGrid::reach_text(Real h) {
+  return "must be within " + to_text(kFarthestCell * static_cast<double>(h)) +
+         " m (2^20 support radii) of the origin";
+}
 
 void CellGrid::build(const Records& x, Index particles, Real h, int threads) {
   const Index n = x.size();
@@ -59,7 +67,7 @@ void CellGrid::build(const Records& x, Index particles, Real h, int threads) {
   if (n == 0) return;
 
   const double cell = static_cast<double>(h) * (1 + 1e-6);
-  const Bounds bounds = bounds_of(x, kFarthestCell * static_cast<double>(h), threads);
+  const Bounds bounds = bounds_of(x, h, threads);
   // One empty cell around the bounds: a row that leaves the grid then meets keys that no particle
   // has.
   const auto cells = [&](int axis) {

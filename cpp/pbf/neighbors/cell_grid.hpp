@@ -1,12 +1,14 @@
 #pragma once
 
 #include "pbf/core/records.hpp"
+#include "pbf/core/types.hpp"
 #include "pbf/neighbors/scan.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pbf {
@@ -22,6 +24,10 @@ inline constexpr Index kMostParticles = (Index{1} << 30) - 2 * kMostLanes;
 /// keys. Memory and time follow the number of particles, however far they are spread.
 class CellGrid {
  public:
+  /// Whether a coordinate can be sorted: finite and within kFarthestCell cells. The rule in words.
+  static bool reaches(const Vec3& x, Real h);
+  static std::string reach_text(Real h);
+
   /// Finds the order of x by cell; equal cells keep the order they came in. Cells are a hair larger
   /// than h, so that rounding cannot put two particles closer than h two cells apart. Throws
   /// SimulationFailed if a coordinate is not finite or beyond kFarthestCell cells.
