@@ -73,6 +73,19 @@ EnvironmentMap environment_map(py::handle object) {
           std::vector<float>(array.data(), array.data() + array.size())};
 }
 
+/// What a list holds beside meshes, None among it, is no mesh.
+Meshes meshes_of(const py::list& list) {
+  Meshes meshes;
+  for (const py::handle item : list) {
+    if (!py::isinstance<Mesh>(item)) {
+      raise("WrongType", "meshes[" + std::to_string(meshes.size()) +
+                             "] = " + py::repr(item).cast<std::string>() + ": must be a Mesh");
+    }
+    meshes.push_back(item.cast<std::shared_ptr<Mesh>>());
+  }
+  return meshes;
+}
+
 /// A FluidRenderer that several Python threads may call, in turn, and that can be closed.
 class Renderer {
  private:
@@ -149,9 +162,9 @@ class Renderer {
   py::array_t<std::uint8_t> render(py::handle positions,
                                    const Camera& camera,
                                    const RenderParams& params,
-                                   const std::vector<std::shared_ptr<Mesh>>& meshes,
+                                   const py::list& meshes,
                                    const py::object& values) {
-    const Meshes all(meshes.begin(), meshes.end());
+    const Meshes all = meshes_of(meshes);
     FloatArray numbers(std::vector<py::ssize_t>{0});
     if (!values.is_none()) {
       numbers = scalars_array(values, "values");

@@ -47,6 +47,18 @@ TEST_CASE("extent: who flew off along an axis does not count there") {
   }
 }
 
+TEST_CASE("extent: along slanted axes a coordinate may be more than a float holds") {
+  Points x = box(5'000, {-1, -1, -1}, {1, 1, 1});
+  x.col(17) = Vec3::Constant(3e38F);
+  x.col(18) = Vec3(-3e38F, -3e38F, 3e38F);
+  const Axes axes(Eigen::AngleAxisf(0.7F, Vec3(1, 2, 3).normalized()));
+  const Extent found = extent(x, axes, 0);
+  CHECK((found.lower >= -std::sqrt(3.0)).all());
+  CHECK((found.upper <= std::sqrt(3.0)).all());
+  CHECK((found.upper - found.lower > 1.99).all());
+  CHECK(extent(x.middleCols(17, 2), axes, 0).upper.isFinite().all());
+}
+
 TEST_CASE("extent: of one position, of many alike, and of none") {
   const Points one(Vec3(0.1F, 2e5F, -3));
   for (const Points& x : {one, Points(one.replicate(1, 9999))}) {

@@ -132,6 +132,20 @@ TEST_CASE("sun_shadow: a particle that flew off does not coarsen the picture") {
   CHECK(at(after, {0, 0, 0}, 0) == doctest::Approx(at(before, {0, 0, 0}, 0)).epsilon(0.05));
 }
 
+TEST_CASE("sun_shadow: what is too far away for its numbers casts none") {
+  Points points = spread(20'000, 0.25, [](const Vec3&) { return true; });
+  const SunShadow before = sun_shadow(points, fine());
+  Points corners(3, 3);
+  corners << 3e38F, -3e38F, 3e38F, 3e38F, 3e38F, -3e38F, -3e38F, 3e38F, 3e38F;
+  const auto mesh = std::make_shared<Mesh>(corners, std::vector<Mesh::Triangle>{{0, 1, 2}},
+                                           Vec3(Vec3::Constant(0.5F)));
+  CHECK(sun_shadow(points, fine(), {mesh}).transmittance == before.transmittance);
+  points.conservativeResize(3, points.cols() + 1);
+  points.col(points.cols() - 1) = Vec3::Constant(3e38F);
+  CHECK(sun_shadow(points, fine()).width <= 2 * before.width);
+  CHECK(sun_shadow(Vec3(Vec3::Constant(3e38F)), fine()).width > 1);
+}
+
 TEST_CASE("sun_shadow: none without fluid, floor, strength, or with the sun below the floor") {
   const Points points = Points::Zero(3, 1);
   const auto is_white = [](const SunShadow& map) {

@@ -7,7 +7,7 @@ import pytest
 from support.limits import beyond
 
 import pbfluids as pbf
-from pbfluids.errors import FluidError, InvalidParameter, WrongType
+from pbfluids.errors import FluidError, InvalidParameter, SimulationFailed, WrongType
 
 
 @pytest.fixture
@@ -62,12 +62,61 @@ def test_velocities_that_do_not_fit_are_rejected(sim, velocities, message):
     )
 
 
-@pytest.mark.parametrize("dt", [0.0, -0.01, np.nan, np.inf, -np.inf])
+def test_positions_that_the_grid_cannot_reach_are_rejected():
+    # They would be stuck: every step would fail, and nothing takes a particle out.
+    space = pbf.Simulation(pbf.FluidParams(spacing=0.05))
+    space.add_particles([[0, 0, 0], [2**20 * 0.1, 0, 0]])
+    rejects(
+        space,
+        InvalidParameter,
+        r"positions: particle 1 at \(0, -104858.*, 0\) m; must be within 104858 m",
+        lambda: space.add_particles([[0, 0, 0], [0, -(2**20) * 0.1000001, 0]]),
+    )
+    space.step(0.001)
+
+
+@pytest.mark.parametrize("dt", [0.0, -0.01, 9e-16, 1e-45, np.nan, np.inf, -np.inf])
 def test_a_time_step_that_is_not_positive_is_rejected(sim, dt):
     rejects(sim, InvalidParameter, "dt = .*must be", lambda: sim.step(dt))
 
 
-@pytest.mark.parametrize("seconds", [0.0, -0.01, np.nan, np.inf])
+@pytest.mark.parametrize("dt", [1e-15, 1e-12, 1e-9])
+def test_the_shortest_time_steps_leave_numbers(sim, dt):
+    sim.solver = sim.solver.replace(compliance=1e6)
+    sim.step(dt)
+    for array in (sim.positions, sim.velocities, sim.multipliers, sim.densities, sim.pressures):
+        assert np.isfinite(array).all()
+
+
+def test_a_step_that_fails_leaves_the_bits_of_those_that_follow(sim):
+    for _ in range(30):
+        sim.step(0.004)
+    before = {name: getattr(sim, name) for name in ("densities", "pressures", "multipliers")}
+    other = pbf.Simulation(sim.fluid, domain=sim.domain)
+    other.add_particles(pbf.block((0, 0, 0), (0.2, 0.2, 0.2), spacing=0.05))
+    other.step(0.005)
+    for _ in range(30):
+        other.step(0.004)
+    # The particles are sorted by where they fly to before their velocities overflow.
+    rejects(sim, SimulationFailed, "not finite", lambda: sim.step(1e20))
+    for name, array in before.items():
+        np.testing.assert_array_equal(getattr(sim, name), array, err_msg=name)
+    for simulation in (sim, other):
+        simulation.step(0.004)
+    assert sim.state_hash() == other.state_hash()
+
+
+def test_an_adaptive_frame_ends_where_its_steps_are_less_than_time_can_tell():
+    step = 2.0**-30
+    solver = pbf.SolverParams(time_step="adaptive", min_time_step=step, max_time_step=step)
+    simulation = pbf.Simulation(solver=solver)
+    simulation.step(2.0**30)
+    assert simulation.time + step == simulation.time
+    simulation.advance(32 * step)
+    assert simulation.step_count == 1 + 32
+
+
+@pytest.mark.parametrize("seconds", [0.0, -0.01, 9e-13, np.nan, np.inf])
 def test_a_frame_that_is_not_positive_is_rejected(sim, seconds):
     rejects(sim, InvalidParameter, "seconds = .*must be", lambda: sim.advance(seconds))
 
@@ -154,6 +203,14 @@ def test_a_domain_thinner_than_the_spacing_is_rejected():
 def test_a_block_needs_a_positive_spacing(spacing):
     with pytest.raises(InvalidParameter, match="spacing"):
         pbf.block((0, 0, 0), (1, 1, 1), spacing=spacing)
+
+
+def test_what_is_no_mesh_is_refused_by_its_place():
+    mesh = pbf.Mesh(np.eye(3), [[0, 1, 2]])
+    with pbf.Renderer(8, 8) as renderer:
+        for thing in (None, 3, "boat.obj"):
+            with pytest.raises(WrongType, match=rf"^meshes\[1\] = {thing!r}: must be a Mesh"):
+                renderer.render(np.zeros((1, 3)), pbf.Camera(), meshes=[mesh, thing])
 
 
 def test_a_block_of_more_particles_than_memory_holds_is_an_error_not_a_crash():

@@ -9,6 +9,7 @@ namespace pbf {
 namespace {
 
 constexpr double kFarthest = 6;    // [root mean squares]
+constexpr float kBeyond = 1e30F;   // coordinates end here: what is added up stays finite
 constexpr Index kBlock = 1 << 12;  // positions that are added up at a time
 using Four = Eigen::Array4f;       // three numbers in one vector
 using Four64 = Eigen::Array4d;
@@ -36,7 +37,9 @@ Extent extent(const PointsView& positions, const Eigen::Matrix<Real, 3, 3>& axes
   rows.topRows<3>() = axes;
   const Four along_x = rows.col(0), along_y = rows.col(1), along_z = rows.col(2);
   const auto at = [&](Index i) -> Four {
-    return along_x * positions(0, i) + along_y * positions(1, i) + along_z * positions(2, i);
+    const Four p =
+        along_x * positions(0, i) + along_y * positions(1, i) + along_z * positions(2, i);
+    return p.max(-kBeyond).min(kBeyond);
   };
   std::vector<Part> parts(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   const auto for_parts = [&](auto&& add) {

@@ -94,9 +94,10 @@ Grid covered(const Meshes& meshes, const SunShadow& map) {
   const auto left_of = [](const Vec2& a, const Vec2& b, const Vec2& p) {
     return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
   };
+  // The arguments' order makes the first texel of what is too far off to be a number.
   const auto clamped = [](Real value, int size) {
     const Real last = static_cast<Real>(size - 1 - kReach);
-    return static_cast<int>(std::clamp(value, static_cast<Real>(kReach), last));
+    return static_cast<int>(std::min(std::max(static_cast<Real>(kReach), value), last));
   };
   for (const auto& mesh : meshes) {
     for (const Mesh::Triangle& triangle : mesh->triangles()) {

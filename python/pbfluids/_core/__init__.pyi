@@ -1028,7 +1028,7 @@ class Renderer:
         positions: typing.Any,
         camera: Camera,
         params: RenderParams,
-        meshes: collections.abc.Sequence[Mesh],
+        meshes: list,
         values: typing.Any = None,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def set_environment_map(self, environment_map: typing.Any) -> None: ...
