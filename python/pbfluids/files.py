@@ -33,9 +33,10 @@ class Replacement:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if kind is None:
-            self.beside.replace(self.path)
-        else:
+        try:
+            if kind is None:
+                self.beside.replace(self.path)
+        finally:
             self.discard()
 
     def discard(self) -> None:

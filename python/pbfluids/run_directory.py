@@ -21,6 +21,9 @@ __all__ = ["RunDirectory"]
 
 _PARTICLES = "particles/frame_{:05d}.npz"
 _IMAGE = "images/frame_{:05d}.png"
+# Those, and what a killed run left beside them; a picture of another name is not ours to remove.
+_IMAGES = ["images/frame_*.png", "images/.*.frame_*.png"]
+_PARTICLE_FILES = ["particles/frame_*.npz", "particles/.*.frame_*.npz"]
 
 
 class RunDirectory:
@@ -41,7 +44,7 @@ class RunDirectory:
 
         Without this the frames of a shorter run would mix with those of a longer one before it.
         """
-        kinds = ["images/*.png", *(["particles/*.npz", "run.json"] if particles else [])]
+        kinds = [*_IMAGES, *([*_PARTICLE_FILES, "run.json"] if particles else [])]
         self.path.mkdir(parents=True, exist_ok=True)
         for old in [file for kind in kinds for file in self.path.glob(kind)]:
             old.unlink()
@@ -71,7 +74,7 @@ class RunDirectory:
     def frame_indices(self) -> list[int]:
         """Give the numbers of the frames whose particles are there, in order."""
         names = (file.stem.removeprefix("frame_") for file in self.path.glob("particles/*.npz"))
-        return sorted(int(name) for name in names if name.isdigit())
+        return sorted(int(name) for name in names if name.isdecimal())
 
     def read_particles(self, index: int) -> dict[str, npt.NDArray[Any]]:
         """Read the arrays of a frame, its positions among them.
@@ -104,14 +107,23 @@ class RunDirectory:
         """
         try:
             record = json.loads(self.record_file.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             reason = getattr(error, "strerror", None) or error
             raise InvalidParameter(
                 f"{self.path}: not the directory of a run: run.json cannot be read: {reason}"
             ) from error
-        if not isinstance(record, dict) or "scene" not in record:
+        if not isinstance(record, dict) or not isinstance(record.get("scene"), dict):
             raise InvalidParameter(f"{self.record_file}: holds no scene")
+        size = record.get("size")
+        if size is not None and not _is_size(size):
+            raise InvalidParameter(
+                f"{self.record_file}: size = {json.dumps(size)}: must be width and height"
+            )
         return record
+
+
+def _is_size(value: Any) -> bool:
+    return isinstance(value, list) and [type(side) for side in value] == [int, int]
 
 
 def _without_infinities(value: Any) -> Any:

@@ -101,7 +101,7 @@ class Scene:
         """
         try:
             text = Path(path).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
+        except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or error
             raise SceneError(f"{path}: cannot be read: {reason}") from error
         data = located(_parsed(text, str(path)), Path(path).parent)

@@ -15,7 +15,24 @@ else:
 __all__ = ["TOMLDecodeError", "dumps", "loads"]
 
 TOMLDecodeError = tomllib.TOMLDecodeError
-loads = tomllib.loads
+
+
+def loads(text: str) -> dict[str, Any]:
+    """Read TOML.
+
+    Raises
+    ------
+    TOMLDecodeError
+        If it is none, or more than the parser takes: numbers of thousands of digits, deep nesting.
+    """
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise TOMLDecodeError("nested too deeply") from error
+    except TOMLDecodeError:
+        raise
+    except ValueError as error:
+        raise TOMLDecodeError(str(error)) from error
 
 
 def dumps(data: Mapping[str, Any]) -> str:

@@ -32,12 +32,14 @@ def check(path: str | Path, width: int, height: int) -> None:
     Raises
     ------
     InvalidParameter
-        If the size is odd or the name does not end in .mp4.
+        If the size is odd, or the name does not end in .mp4 or is that of a directory.
     MissingExtra
         If PyAV is not installed.
     """
     if Path(path).suffix.lower() != ".mp4":
         raise InvalidParameter(f"video = {path}: must end in .mp4")
+    if Path(path).is_dir():
+        raise InvalidParameter(f"video = {path}: is a directory; must be a file")
     if width % 2 or height % 2:
         raise InvalidParameter(
             f"size = {width}x{height}: must be even in both directions, since yuv420p keeps one "
@@ -72,7 +74,7 @@ class VideoWriter:
     Raises
     ------
     InvalidParameter
-        If the size is odd or the name does not end in .mp4.
+        If the size is odd, or the name does not end in .mp4 or is that of a directory.
     MissingExtra
         If PyAV is not installed.
     """

@@ -12,6 +12,7 @@ import pytest
 import pbfluids as pbf
 from pbfluids import pipeline
 from pbfluids import run as run_module
+from pbfluids.errors import InvalidParameter
 from pbfluids.run import draw, simulate
 from pbfluids.run_directory import RunDirectory
 
@@ -220,3 +221,38 @@ def test_an_error_in_a_stage_leaves_the_frames_before(scene, tmp_path, fake, mon
         assert (tmp_path / f"particles/frame_{k:05d}.npz").exists()
     assert not (tmp_path / "images/frame_00003.png").exists()
     assert len(list(tmp_path.glob("particles/*"))) < 10
+
+
+def test_an_earlier_run_is_removed_and_nothing_else(scene, tmp_path, fake):
+    simulate(scene, tmp_path, count=4, size=(8, 8))
+    foreign = [tmp_path / name for name in ("images/holiday.png", "particles/mine.npz")]
+    left_by_a_killed_run = tmp_path / "images/.123.frame_00003.png"
+    for file in (*foreign, left_by_a_killed_run):
+        file.write_bytes(b"")
+    simulate(scene, tmp_path, count=2, size=(8, 8))
+    assert RunDirectory(tmp_path).frame_indices() == [0, 1]
+    assert sorted(file.name for file in tmp_path.glob("images/*")) == [
+        "frame_00000.png",
+        "frame_00001.png",
+        "holiday.png",
+    ]
+    assert all(file.exists() for file in foreign)
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        ({"scene": "dam_break"}, "holds no scene"),
+        ({"scene": None}, "holds no scene"),
+        ({"size": [1, 2, 3]}, r"size = \[1, 2, 3\]: must be width and height"),
+        ({"size": 5}, "size = 5: must be"),
+        ({"size": [8.5, 8]}, r"size = \[8.5, 8\]: must be"),
+    ],
+)
+def test_a_damaged_record_is_named(scene, tmp_path, fake, change, fault):
+    run = simulate(scene, tmp_path, count=1, size=(8, 8))
+    before = (tmp_path / "images/frame_00000.png").stat().st_mtime_ns
+    run.write_record({**run.read_record(), **change})
+    with pytest.raises(InvalidParameter, match=rf"run\.json: {fault}"):
+        draw(tmp_path)
+    assert (tmp_path / "images/frame_00000.png").stat().st_mtime_ns == before

@@ -157,6 +157,14 @@ def test_a_file_that_is_not_there_is_reported(tmp_path):
         pbf.Scene.load(tmp_path / "nowhere.toml")
 
 
+@pytest.mark.parametrize("value", ["[" * 2000 + "]" * 2000, "9" * 5000])
+def test_more_than_the_parser_takes_is_a_fault(tmp_path, value):
+    path = tmp_path / "scene.toml"
+    path.write_text(f"schema = {value}\n")
+    with pytest.raises(SceneError, match=r"scene\.toml: not TOML: "):
+        pbf.Scene.load(path)
+
+
 def test_an_unknown_builtin_comes_with_the_name_that_was_meant():
     with pytest.raises(SceneError, match='did you mean "dam_break"'):
         pbf.Scene.builtin("dam_brake")

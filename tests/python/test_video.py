@@ -77,6 +77,13 @@ def test_another_ending_is_rejected(tmp_path):
         VideoWriter(tmp_path / "movie.avi", 64, 48, 30)
 
 
+def test_a_directory_in_its_place_is_found_before_the_first_picture(tmp_path):
+    (tmp_path / "movie.mp4").mkdir()
+    with pytest.raises(InvalidParameter, match=r"movie\.mp4: is a directory; must be a file"):
+        VideoWriter(tmp_path / "movie.mp4", 64, 48, 25)
+    assert list(tmp_path.iterdir()) == [tmp_path / "movie.mp4"]
+
+
 @pytest.mark.parametrize(
     "image", [np.zeros((48, 65, 3), np.uint8), np.zeros((48, 64), np.uint8), np.zeros((48, 64, 3))]
 )
