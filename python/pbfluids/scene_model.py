@@ -18,6 +18,10 @@ from pbfluids.coloring import LEGENDS
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Vec3 = Annotated[list[Number], Field(min_length=3, max_length=3)]
+# float32 holds no more, and no fluid is as fast.
+Velocity = Annotated[
+    list[Annotated[Number, Field(ge=-1e30, le=1e30)]], Field(min_length=3, max_length=3)
+]
 Color = Annotated[list[Annotated[Number, Field(ge=0, le=1)]], Field(min_length=3, max_length=3)]
 Axes = Annotated[list[bool], Field(min_length=3, max_length=3)]
 
@@ -158,7 +162,7 @@ class Block(Table):
 
     lower: Vec3 = Field(description="Corner of the least coordinates [m].")
     upper: Vec3 = Field(description="Corner of the greatest coordinates [m].")
-    velocity: Vec3 = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
+    velocity: Velocity = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
 
 
 class Ball(Table):
@@ -166,7 +170,7 @@ class Ball(Table):
 
     center: Vec3 = Field(description="Middle of the ball [m].")
     radius: Number = Field(gt=0, description="Radius of the ball [m].")
-    velocity: Vec3 = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
+    velocity: Velocity = Field([0.0, 0.0, 0.0], description="Velocity at the start [m/s].")
 
 
 class MeshFile(Table):
@@ -202,7 +206,8 @@ class SceneTables(Table):
     name: str = Field(pattern=r"^[A-Za-z0-9_-]+$", description="Letters, digits, _ and -.")
     description: str = Field("", description="One line: what there is to see.")
     duration: Number = Field(gt=0, description="Simulated time [s].")
-    frame_rate: Number = Field(gt=0, description="Frames per simulated second [1/s].")
+    # What a video file can say, and less than a frame of the shortest time steps.
+    frame_rate: Number = Field(ge=1e-3, le=1e6, description="Frames per simulated second [1/s].")
     domain: Domain | None = None
     blocks: list[Block] = Field([], description="Boxes of fluid.")
     balls: list[Ball] = Field([], description="Balls of fluid.")

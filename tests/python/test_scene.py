@@ -73,6 +73,12 @@ def test_an_unknown_key_comes_with_the_name_that_was_meant(tiny, table, key, fau
         ({"duration": -1}, "duration = -1: must be > 0"),
         ({"duration": math.inf}, "duration = Infinity: must be finite"),
         ({"frame_rate": True}, "frame_rate = true: must be a number"),
+        ({"frame_rate": 1e-4}, "frame_rate = 0.0001: must be >= 0.001"),
+        ({"frame_rate": 2e6}, "frame_rate = 2000000.0: must be <= 1e+06"),
+        (
+            {"blocks": [{"lower": [0, 0, 0], "upper": [0.2] * 3, "velocity": [0, 1e39, 0]}]},
+            "blocks[0].velocity[1] = 1e+39: must be <= 1e+30",
+        ),
         ({"fluid": 3}, "fluid = 3: must be a table"),
         (
             {"fluid": {"kernel": "gauss"}},
