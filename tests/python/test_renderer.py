@@ -428,6 +428,24 @@ def test_bad_positions_are_refused(renderer, positions, error, match):
         renderer.render(positions, pbf.Camera())
 
 
+@pytest.mark.parametrize("style", ["fluid", "spheres"])
+@pytest.mark.parametrize("far", [1e6, 1e19, 1e30, 3e38])
+def test_a_particle_that_flew_off_leaves_the_picture_as_it_is(renderer, style, far):
+    x = pbf.block((-0.3, 0, -0.2), (0.3, 0.4, 0.2), spacing=0.04)
+    params = pbf.RenderParams(style=style, radius=0.05, drop_radius=0.025)
+    expected = renderer.render(x, pbf.Camera(), params)
+    with_far = np.concatenate([x, [[far, far, -far], [-far, far, 0]]])
+    np.testing.assert_array_equal(renderer.render(with_far, pbf.Camera(), params), expected)
+
+
+@pytest.mark.parametrize("style", ["fluid", "spheres"])
+def test_a_cloud_as_wide_as_floats_go_can_be_drawn(renderer, style):
+    """There is a shadow then, and it may be anywhere."""
+    x = np.float32(3e38) * pbf.ball((0, 0, 0), 1, spacing=0.5)
+    params = pbf.RenderParams(style=style)
+    assert renderer.render(x, pbf.Camera(), params).shape == (120, 160, 4)
+
+
 @pytest.mark.parametrize(
     ("fields", "match"),
     [

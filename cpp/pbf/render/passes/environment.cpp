@@ -75,11 +75,12 @@ Rectangle shadow_rectangle(const SunShadow& shadow,
     const Vec3 corner = shadow.center + u * across_x + v * across_y;
     const Vec3 on_floor = corner - (up.dot(corner) - floor_height(params, up)) / up.dot(sun) * sun;
     const Vec3 p = view.topLeftCorner<3, 3>() * on_floor + view.topRightCorner<3, 1>();
-    if (-p.z() < camera.near) return {0, 0, width, height};
     const float depth = camera.orthographic ? 1 : -p.z();
     const Eigen::Array2f at =
         p.head<2>().array() / (depth * camera.half_height()) *
         Eigen::Array2f(static_cast<float>(height) / static_cast<float>(width), 1);
+    // Behind the eye, or too far away to be a number: it may be anywhere.
+    if (-p.z() < camera.near || !at.isFinite().all()) return {0, 0, width, height};
     low = low.min(at);
     high = high.max(at);
   }

@@ -3,6 +3,7 @@
 #include "pbf/render/nearest.hpp"
 #include "pbf/render/passes/sphere_depth.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -40,7 +41,9 @@ void ColoredParticles::upload(const PointsView& positions,
   std::vector<std::uint32_t> shell(static_cast<std::size_t>(n));
   std::vector<std::uint32_t> begin(kShells + 1, 0);
   for (Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::uint32_t>(shells * (positions.col(i) - eye).norm());
+    // The last shell takes what is too far away for its distance to be a number.
+    const auto k = static_cast<std::uint32_t>(
+        std::min(static_cast<Real>(kShells - 1), shells * (positions.col(i) - eye).norm()));
     shell[static_cast<std::size_t>(i)] = k;
     ++begin[k + 1];
   }
