@@ -319,7 +319,7 @@ class SolverParams:
     @property
     def warm_start(self) -> float:
         """
-        Share of the last time step's pressure that the iterations start from. More needs fewer iterations in calm water; near 1 errors live on and waves build up. Pressure method.
+        Share of the last time step's pressure that the iterations start from. More needs fewer iterations in calm water; near 1 errors live on and waves build up. Less in long steps, where it would push by more than half a squared spacing. Pressure method.
         """
     @warm_start.setter
     def warm_start(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
