@@ -107,7 +107,7 @@ def test_every_attempt_is_in_the_error_in_words(fake_egl):
     code = """
 import pbfluids as pbf
 try:
-    pbf.Renderer(16, 16)
+    pbf.Renderer(16, 16, backend="egl")
 except pbf.errors.RendererUnavailable as error:
     print(error)
 """
@@ -129,18 +129,62 @@ except pbf.errors.RendererUnavailable as error:
     assert "libstdcxx-ng" in done.stdout
 
 
-def test_without_a_driver_the_error_lists_the_attempts_and_the_cure():
-    code = """
+NO_DRIVER = {"__EGL_VENDOR_LIBRARY_DIRS": "/nowhere", "__EGL_VENDOR_LIBRARY_FILENAMES": ""}
+
+
+@pytest.mark.parametrize("wish", ['backend="egl"', 'device="software"', "device=0"])
+def test_a_driver_that_was_asked_for_and_is_not_there_is_an_error(wish):
+    code = f"""
 import pbfluids as pbf
 try:
-    pbf.Renderer(16, 16)
+    pbf.Renderer(16, 16, {wish})
 except pbf.errors.RendererUnavailable as error:
     print(error)
 """
-    done = run_python(code, __EGL_VENDOR_LIBRARY_DIRS="/nowhere", __EGL_VENDOR_LIBRARY_FILENAMES="")
+    done = run_python(code, PBF_EGL_DEVICE="", **NO_DRIVER)
+    if "device" in wish:
+        assert "there is no such device" in done.stdout
+    else:
+        assert "tried in this order:\n  EGL devices: " in done.stdout
+        assert "surfaceless" in done.stdout
+        assert "apt-get install libegl1 libgl1-mesa-dri" in done.stdout
+
+
+def test_without_a_driver_cpp_draws_and_says_why_once():
+    code = """
+import warnings
+import pbfluids as pbf
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    with pbf.Renderer(16, 16) as first, pbf.Renderer(16, 16) as second:
+        image = first.render([[0, 0, 0]], pbf.Camera())
+        print(image.shape, first.software, first.info["choice"])
+with pbf.Renderer(16, 16, backend="cpu") as third:
+    print((third.render([[0, 0, 0]], pbf.Camera()) == image).all())
+(warning,) = said
+print(warning.category.__name__, warning.message)
+"""
+    done = run_python(code, PBF_EGL_DEVICE="", **NO_DRIVER)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("(16, 16, 4) True there is no OpenGL\nTrue\nSoftwareRendering")
     assert "tried in this order:\n  EGL devices: " in done.stdout
-    assert "surfaceless" in done.stdout
     assert "apt-get install libegl1 libgl1-mesa-dri" in done.stdout
+    assert 'backend="cpu"' in done.stdout
+
+
+def test_on_software_cpp_draws_and_names_the_driver():
+    code = """
+import pbfluids as pbf
+with pbf.Renderer(16, 16) as mine, pbf.Renderer(16, 16, backend="egl") as shaders:
+    print(mine.software, shaders.software)
+    print(mine.description)
+    print(shaders.description)
+"""
+    done = run_python(code, PBF_EGL_DEVICE="software")
+    assert done.returncode == 0, done.stderr
+    software, mine, shaders = done.stdout.splitlines()
+    assert software == "True True"
+    assert mine == f"C++ on the processor, in place of {shaders}"
 
 
 @pytest.mark.parametrize(
@@ -225,7 +269,7 @@ import pbfluids as pbf
 pbf.Renderer(16, 16)
 """
     done = fake_egl(code, "file=/dev/dri/renderD128,fails=0x3002;software", PBF_EGL_DEVICE="")
-    assert "SoftwareRendering: llvmpipe" in done.stderr
+    assert "SoftwareRendering: C++ on the processor, in place of llvmpipe" in done.stderr
     assert "  EGL device 0 (/dev/dri/renderD128): the display cannot be opened" in done.stderr
     assert "EGL_BAD_ACCESS" in done.stderr
 
