@@ -334,7 +334,7 @@ def test_another_user_of_opengl_is_not_disturbed():
     done = run_python(
         OTHER_USER
         + """
-renderer = pbf.Renderer(64, 48)
+renderer = pbf.Renderer(64, 48, backend="egl")
 check()
 image = renderer.render([[0, 0, 0]], pbf.Camera())
 check()
@@ -342,7 +342,7 @@ try:
     renderer.render([[0, 0, float("nan")]], pbf.Camera())
 except pbf.FluidError:
     check()
-with pbf.Renderer(16, 16) as second:
+with pbf.Renderer(16, 16, backend="egl") as second:
     check()
 check()
 assert np.array_equal(renderer.render([[0, 0, 0]], pbf.Camera()), image)
@@ -358,7 +358,7 @@ def test_somebody_else_s_terminate_is_an_error_and_not_the_end():
     done = run_python(
         OTHER_USER
         + """
-renderer = pbf.Renderer(16, 16, device="surfaceless")  # the same display
+renderer = pbf.Renderer(16, 16, device="surfaceless", backend="egl")  # the same display
 egl.eglMakeCurrent(display, None, None, None)
 assert egl.eglTerminate(display)
 try:
@@ -368,7 +368,7 @@ except pbf.errors.GlError as error:
     assert "EGL_" in str(error), error
     print("refused")
 renderer.close()
-with pbf.Renderer(16, 16, device="surfaceless") as again:
+with pbf.Renderer(16, 16, device="surfaceless", backend="egl") as again:
     again.render([[0, 0, 0]], pbf.Camera())
 """
     )
