@@ -17,6 +17,8 @@ add_library(pbf_render STATIC
   pbf/render/camera.cpp
   pbf/render/checks.cpp
   pbf/render/cpu_renderer.cpp
+  pbf/render/environment.cpp
+  pbf/render/shadow_rectangle.cpp
   pbf/render/params.cpp
   pbf/render/colormap.cpp
   pbf/render/lettering.cpp
@@ -52,7 +54,15 @@ add_library(pbf_render STATIC
   pbf/render/raster/tiles.cpp
   pbf/render/raster/map.cpp
   pbf/render/raster/surroundings.cpp
+  pbf/render/raster/terms.cpp
+  pbf/render/raster/panorama.cpp
   pbf/render/raster/normal.cpp
+  pbf/render/raster/backdrop.cpp
+  pbf/render/raster/composite.cpp
+  pbf/render/raster/colored.cpp
+  pbf/render/raster/opaque_meshes.cpp
+  pbf/render/raster/resolve.cpp
+  pbf/render/raster/layers.cpp
   pbf/render/raster/smooth.cpp
   pbf/render/raster/splats.cpp
   pbf/render/passes/resolve.cpp
@@ -70,7 +80,10 @@ pbf_add_lanes(pbf_render
   pbf/render/anisotropy_lanes.cpp
   pbf/render/raster/splats_lanes.cpp
   pbf/render/raster/smooth_lanes.cpp
-  pbf/render/raster/curvature_flow_lanes.cpp)
+  pbf/render/raster/curvature_flow_lanes.cpp
+  pbf/render/raster/normal_lanes.cpp
+  pbf/render/raster/colored_lanes.cpp
+  pbf/render/raster/composite_lanes.cpp)
 
 pbf_embed_glsl(pbf_render
   frame.glsl

@@ -3,6 +3,9 @@
 // colors mean something.
 uniform sampler2D u_depth;
 uniform sampler2D u_normal;
+#ifdef MESHES
+uniform sampler2D u_mesh_depth;  // affine
+#endif
 uniform float u_radius;  // of a sphere [m]
 layout(location = 0) out vec4 o_color;
 
@@ -50,5 +53,8 @@ void main() {
     float open = openness(pixel, p, surface.xyz);
     vec3 light = linear_color(surface.w) * (sun * mix(0.5, 1.0, open) + sky * open);
     o_color = display(light, 1.0);
+#ifdef MESHES
+    if (texelFetch(u_mesh_depth, pixel, 0).r > a) o_color = vec4(0.0);
+#endif
   }
 }

@@ -1,6 +1,7 @@
 /// The passes of a frame, in C++ (cpp), with ellipsoids, and as shaders (glsl): milliseconds of
 /// each, and how much work there was. The same dam break, in the same picture, of few and of many
 /// particles.
+#include "pbf/render/cpu_renderer.hpp"
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/fluid_renderer.hpp"
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <type_traits>
 
 namespace pbf::bench {
 namespace {
@@ -73,10 +75,11 @@ double taps(const Layers& layers, Real radius, double pixels_per_slope) {
   return sum;
 }
 
-void draw(benchmark::State& state, SurfacePasses passes, Real anisotropy) {
+template <class Renderer>
+void draw(benchmark::State& state, Real anisotropy) {
   const Cloud& of = cloud(state.range(0));
   const auto height = static_cast<int>(state.range(1));
-  FluidRenderer renderer(height * 16 / 9, height, "", passes);
+  Renderer renderer(height * 16 / 9, height);
   RenderParams drawn = params(of.spacing);
   drawn.anisotropy = anisotropy;
   const Layers layers = renderer.layers(of.positions, camera(), drawn);
@@ -95,7 +98,7 @@ void draw(benchmark::State& state, SurfacePasses passes, Real anisotropy) {
   const double pixels_per_slope = height / (2.0 * static_cast<double>(camera().half_height()));
   state.counters["particles"] = static_cast<double>(of.positions.cols());
   state.counters["fragments"] =
-      fragments(of, drawn, pixels_per_slope, passes == SurfacePasses::cpp);
+      fragments(of, drawn, pixels_per_slope, std::is_same_v<Renderer, CpuRenderer>);
   state.counters["pixels"] =
       static_cast<double>(std::ranges::count_if(layers.depth.data, [](float d) { return d > 0; }));
   state.counters["depth_taps"] = static_cast<double>(drawn.smoothing_iterations) *
@@ -112,9 +115,9 @@ void frames(benchmark::internal::Benchmark* benchmark) {
       ->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(draw, cpp, SurfacePasses::cpp, 0)->Apply(frames);
-BENCHMARK_CAPTURE(draw, cpp_ellipsoids, SurfacePasses::cpp, 1)->Apply(frames);
-BENCHMARK_CAPTURE(draw, glsl, SurfacePasses::glsl, 0)->Apply(frames);
+BENCHMARK_CAPTURE(draw<CpuRenderer>, cpp, 0)->Apply(frames);
+BENCHMARK_CAPTURE(draw<CpuRenderer>, cpp_ellipsoids, 1)->Apply(frames);
+BENCHMARK_CAPTURE(draw<FluidRenderer>, glsl, 0)->Apply(frames);
 
 }  // namespace
 }  // namespace pbf::bench

@@ -109,18 +109,46 @@ class Renderer {
       throw GlError("the renderer is closed; make a new one");
     }
   }
-  FluidRenderer& open() {
+  /// Calls f with the one that draws.
+  template <class F>
+  auto with_open(F&& f) {
     require_open();
-    if (renderer_ == nullptr) {
-      throw RendererUnavailable(
-          "render: with backend = \"cpu\" there are layers only, the picture needs OpenGL; make "
-          "the renderer without backend");
-    }
-    return *renderer_;
+    return cpu_ ? f(*cpu_) : f(*renderer_);
   }
   const RenderReport& last_report() const {
     require_open();
     return cpu_ ? cpu_->report() : renderer_->report();
+  }
+
+  void draw_in_cpp(int width, int height, const std::string& why) {
+    cpu_ = std::make_unique<CpuRenderer>(width, height);
+    description_ = "C++ on the processor, no OpenGL";
+    info_.renderer = description_;
+    info_.platform = "processor";
+    info_.choice = why;
+    info_.software = true;
+  }
+  /// @param shaders  whatever the driver; if not, C++ draws where the driver would use the
+  ///                 processor, and where nobody asked for a device and there is no driver
+  void find_driver(int width, int height, const std::string& device, bool shaders) {
+    { const EglTurn turn; }  // none after fork(): that is no machine without OpenGL
+    std::unique_ptr<EglContext> context;
+    try {
+      context = std::make_unique<EglContext>(device);
+    } catch (const RendererUnavailable& error) {
+      if (shaders || !device_wish(device).source.empty()) throw;
+      missing_ = error.what();
+      draw_in_cpp(width, height, "there is no OpenGL");
+      return;
+    }
+    info_ = context->info();
+    description_ = context->description();
+    if (shaders || !info_.software) {
+      renderer_ = std::make_unique<FluidRenderer>(width, height, std::move(context));
+    } else {
+      cpu_ = std::make_unique<CpuRenderer>(width, height);
+      description_ = "C++ on the processor, in place of " + description_;
+    }
   }
 
   const int process_ = getpid();
@@ -130,6 +158,7 @@ class Renderer {
   std::unique_ptr<CpuRenderer> cpu_;
   EglContext::Info info_;  ///< of the context: known without a turn at it, and after close() too
   std::string description_;
+  std::string missing_;  ///< why there is no OpenGL, if nobody asked for that
 
  public:
   Renderer(int width,
@@ -143,20 +172,13 @@ class Renderer {
     }
     const WithoutGil unlocked;  // looking for a device takes a while
     if (backend == "cpu") {
-      cpu_ = std::make_unique<CpuRenderer>(width, height);
-      cpu_->set_timed(timed);
-      description_ = "C++ on the processor, no OpenGL";
-      info_.renderer = description_;
-      info_.platform = "processor";
-      info_.choice = "asked for";
-      info_.software = info_.asked_for = true;
-      return;
+      draw_in_cpp(width, height, "asked for");
+      info_.asked_for = true;
+    } else {
+      find_driver(width, height, device, backend.has_value());
     }
-    const SurfacePasses passes = backend ? SurfacePasses::glsl : SurfacePasses::automatic;
-    renderer_ = std::make_unique<FluidRenderer>(width, height, device, passes);
-    renderer_->set_timed(timed);
-    info_ = renderer_->context().info();
-    description_ = renderer_->context().description();
+    if (renderer_) renderer_->set_timed(timed);
+    if (cpu_) cpu_->set_timed(timed);
   }
 
   py::array_t<std::uint8_t> render(py::handle positions,
@@ -172,19 +194,21 @@ class Renderer {
       require_rows(numbers, "values", rows.shape(0), "positions");
     }
     return pixels_to_numpy(draw(positions, [&](PointsView x) {
-      return open().render(x, camera, params, all, scalars_view(numbers));
+      return with_open([&](auto& renderer) {
+        return renderer.render(x, camera, params, all, scalars_view(numbers));
+      });
     }));
   }
 
   void set_environment_map(const py::object& map) {
     std::optional<EnvironmentMap> pixels;
     if (!map.is_none()) pixels = environment_map(map);
-    with_lock([&] { open().set_environment_map(pixels); });
+    with_lock([&] { with_open([&](auto& renderer) { renderer.set_environment_map(pixels); }); });
   }
 
   py::dict layers(py::handle positions, const Camera& camera, const RenderParams& params) {
     Layers layers = draw(positions, [&](PointsView x) {
-      return cpu_ ? cpu_->layers(x, camera, params) : open().layers(x, camera, params);
+      return with_open([&](auto& renderer) { return renderer.layers(x, camera, params); });
     });
     py::dict result;
     const auto give = [&](const char* name, Pixels<float>& layer) {
@@ -213,10 +237,12 @@ class Renderer {
   [[nodiscard]] std::string description() const { return description_; }
   [[nodiscard]] bool software() const { return info_.software; }
   [[nodiscard]] bool asked_for() const { return info_.asked_for; }
+  [[nodiscard]] std::string missing() const { return missing_; }
   [[nodiscard]] std::vector<std::string> attempts() const { return info_.attempts; }
   void close() {
     if (getpid() != process_) {
       static_cast<void>(renderer_.release());  // its names are the parent's
+      cpu_.reset();
       return;
     }
     with_lock([&] {
@@ -314,6 +340,7 @@ WrongType
       .def_property_readonly("software", &Renderer::software)
       .def_property_readonly("asked_for", &Renderer::asked_for)
       .def_property_readonly("attempts", &Renderer::attempts)
+      .def_property_readonly("missing", &Renderer::missing)
       .def_property_readonly("report", &Renderer::report);
   m.def("egl_devices", &egl_device_dicts, "Devices that EGL lists.");
   m.def("egl_cures", &egl_cures, "What to do where rendering, or a GPU for it, is missing.");

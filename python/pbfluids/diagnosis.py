@@ -101,7 +101,7 @@ def examine() -> Diagnosis:
         cores=len(os.sched_getaffinity(0)),
         threads=_core.usable_threads(0),
         memory_available=available_memory(),
-        can_render=error is None,
+        can_render=bool(renderer),
         egl_devices=_egl_devices(),
         visible_gpus=_core.visible_gpus(),
         renderer=renderer,
@@ -116,7 +116,8 @@ def _renderer() -> tuple[dict[str, Any], str | None]:
             warnings.simplefilter("ignore", SoftwareRendering)  # the listing shows it
             with Renderer(16, 16) as renderer:
                 renderer.render([[0, 0, 0]], Camera())
-                return {**renderer.info, "software": renderer.software}, None
+                shown = {"drawn by": renderer.description}
+                return {**shown, **renderer.info, "software": renderer.software}, renderer.missing
     except FluidError as error:
         return {}, str(error)
 

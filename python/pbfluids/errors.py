@@ -49,7 +49,7 @@ class RendererUnavailable(FluidError, OSError):
 
 
 class SoftwareRendering(UserWarning):
-    """A warning: the processor draws although there is a GPU, and nobody asked for that."""
+    """A warning: the processor draws, unasked: beside a GPU, or as there is no OpenGL."""
 
 
 class GlError(FluidError, RuntimeError):

@@ -70,33 +70,33 @@ class Renderer:
     width, height : int
         Size of the pictures [pixels], at least 1, at most what the driver draws.
     device : int or str, optional
-        What to draw on: the index of an EGL device as ``pbfluids doctor`` lists them, "hardware",
-        "software", "cuda:N" for the GPU that CUDA calls N, or "surfaceless". If not given, what the
-        environment variable ``PBF_EGL_DEVICE`` says in the same words; else the first that works
+        Whose driver to look for: the index of an EGL device as ``pbfluids doctor`` lists them,
+        "hardware", "software", "cuda:N" for the GPU that CUDA calls N, or "surfaceless". If not
+        given, what the environment variable ``PBF_EGL_DEVICE`` says; else the first that works
         of: GPUs in the order of CUDA, other hardware, software, Mesa's surfaceless platform.
     environment_map : array_like, shape (h, w, 3), float32, optional
         See :meth:`set_environment_map`.
     timed : bool, optional
         Measure each pass (see :attr:`report`). Waiting for each costs a little.
     backend : {"egl", "cpu"}, optional
-        Who draws. Not given: OpenGL, with the passes up to the smoothed surface in C++ where the
-        driver is Mesa's software one, which they outrun many times over. ``"egl"``: OpenGL alone,
-        whatever the driver. ``"cpu"``: C++ alone, for machines without OpenGL; there are
-        :meth:`layers` then, :meth:`render` raises RendererUnavailable. Layers agree within the
-        rounding of their arithmetic.
+        Who draws. Not given: OpenGL on a GPU; where there is none the same passes in C++, which
+        outrun a driver that runs shaders on the processor several times over. ``"egl"``: OpenGL,
+        whatever the driver. ``"cpu"``: C++, without a look at the drivers. Pictures agree within
+        the rounding of their arithmetic, which is one or two of 255, but for a few pixels at edges.
 
     Raises
     ------
     InvalidParameter
         If the size cannot be drawn, or ``device`` means nothing.
     RendererUnavailable
-        If there is no OpenGL 3.3 here, or not on the device asked for; the message lists every
-        attempt and the cure. Not with ``backend="cpu"``, which needs none.
+        If there is no OpenGL 3.3 although it was asked for, by ``backend="egl"``, or by ``device``
+        or PBF_EGL_DEVICE, which is not there; the message lists every attempt and the cure.
 
     Warns
     -----
     SoftwareRendering
-        Once, if the processor draws although there is a GPU, and nobody asked for that.
+        Once, if the processor draws and nobody asked for that: although there is a GPU, or because
+        there is no OpenGL, with every attempt and the cure.
 
     Examples
     --------
@@ -237,6 +237,11 @@ class Renderer:
         return self._core.software
 
     @property
+    def missing(self) -> str | None:
+        """Why there is no OpenGL, with the cure, where C++ draws for want of it; else None."""
+        return self._core.missing or None
+
+    @property
     def info(self) -> dict[str, str]:
         """Renderer, vendor and version as the driver names them, platform and why it was chosen."""
         return self._core.info
@@ -263,8 +268,15 @@ class Renderer:
 
 
 def _say_if_software_by_accident(core: _core.Renderer) -> None:
-    """Warn, once in a process, that a GPU is there and not used."""
+    """Warn, once in a process, that a GPU is there and not used, or that there is no OpenGL."""
     global _said  # noqa: PLW0603
+    if not _said and core.missing:
+        _said = True
+        lines = [
+            f"C++ draws on the processor: {core.missing}",
+            '  to draw on the processor and hear nothing of it: Renderer(…, backend="cpu")',
+        ]
+        warnings.warn("\n".join(lines), SoftwareRendering, stacklevel=3)
     asked_for = core.asked_for or "LIBGL_ALWAYS_SOFTWARE" in os.environ
     gpus = _core.visible_gpus()
     if _said or asked_for or not core.software or not gpus:
@@ -272,7 +284,7 @@ def _say_if_software_by_accident(core: _core.Renderer) -> None:
     _said = True
     tried = [attempt for attempt in core.attempts if "(software)" not in attempt]
     lines = [
-        f"{core.info['renderer']} draws on the processor, although there is a GPU "
+        f"{core.description}: this draws on the processor, although there is a GPU "
         f"({', '.join(gpus)}). Tried before:",
         *("  " + attempt for attempt in tried or ["nothing: EGL does not list the GPU"]),
         "Cure, whichever fits:",

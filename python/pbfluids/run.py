@@ -90,7 +90,7 @@ def simulate(
     MissingExtra
         If the video, a mesh or the environment map needs a package that is not installed.
     RendererUnavailable
-        If this machine cannot draw.
+        If PBF_EGL_DEVICE asks for a device that is not there.
     SimulationFailed
         If a step cannot be completed. The frames before it are there.
     """
@@ -151,7 +151,7 @@ def draw(
     MissingExtra
         If the video, a mesh or the environment map needs a package that is not installed.
     RendererUnavailable
-        If this machine cannot draw.
+        If PBF_EGL_DEVICE asks for a device that is not there.
     """
     run = RunDirectory(directory)
     record = run.read_record()

@@ -148,9 +148,9 @@ TEST_CASE("splats: with half as many pixels deep ones are as thick, and none of 
   for (const Camera& camera : {outside, inside, cut}) {
     CAPTURE(camera.eye.transpose());
     SurfaceMaps all(kWidth, kHeight), split(kWidth, kHeight), by_one(kWidth, kHeight);
-    all.find(x, camera, params, true);
-    split.find(x, camera, params, false, 3);
-    by_one.find(x, camera, params, false, 1);
+    all.find(x, camera, params, SurfaceMaps::For::layers);
+    split.find(x, camera, params, SurfaceMaps::For::picture, 3);
+    by_one.find(x, camera, params, SurfaceMaps::For::picture, 1);
     double difference = 0, sum = 0;
     float largest = 0;
     int covered = 0;

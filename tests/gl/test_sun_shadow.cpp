@@ -1,4 +1,5 @@
 #include "pbf/render/passes/environment.hpp"
+#include "pbf/render/shadow_rectangle.hpp"
 #include "pbf/render/sun_shadow.hpp"
 
 #include <doctest/doctest.h>
@@ -100,7 +101,7 @@ TEST_CASE("sun_shadow: in the picture it lies in a rectangle that is little larg
   camera.orthographic = true;
   camera.height = 4;
   const SunShadow map = sun_shadow(points, params);
-  const Rectangle seen = shadow_rectangle(map, camera, params, 600, 400);
+  const Rectangle seen = shadow_rectangle(map, camera, environment_of(params, camera), 600, 400);
   // The middle is at x = -0.7, z = -0.2; the ball's outline is stretched along x.
   const double half_x = 0.25 * std::sqrt(2.0);
   const auto is_outside_by = [](double edge, int value) {
@@ -116,9 +117,10 @@ TEST_CASE("sun_shadow: in the picture it lies in a rectangle that is little larg
   camera.eye = {-0.7F, 0.5F, -0.2F};
   camera.target = {5, 0.4F, -0.2F};
   camera.up = {0, 1, 0};
-  const Rectangle all = shadow_rectangle(map, camera, params, 600, 400);
+  const Rectangle all = shadow_rectangle(map, camera, environment_of(params, camera), 600, 400);
   CHECK((all.x0 == 0 && all.y0 == 0 && all.x1 == 600 && all.y1 == 400));
-  const Rectangle none = shadow_rectangle(SunShadow{}, camera, params, 600, 400);
+  const Rectangle none =
+      shadow_rectangle(SunShadow{}, camera, environment_of(params, camera), 600, 400);
   CHECK((none.x0 == none.x1 && none.y0 == none.y1));
 }
 

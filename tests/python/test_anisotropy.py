@@ -15,7 +15,7 @@ SIZE = (160, 120)
 RADIUS = 0.05
 
 
-@pytest.fixture(scope="module", params=[None, "egl", "cpu"])
+@pytest.fixture(scope="module", params=["cpu", "egl"])
 def any_renderer(request):
     with pbf.Renderer(*SIZE, backend=request.param) as made:
         yield made

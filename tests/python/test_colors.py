@@ -25,9 +25,14 @@ def linear(srgb):
     return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
 
+@pytest.fixture(scope="module", params=["cpu", "egl"])
+def backend(request):
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def renderer():
-    with pbf.Renderer(160, 120) as made:
+def renderer(backend):
+    with pbf.Renderer(160, 120, backend=backend) as made:
         yield made
 
 
@@ -179,12 +184,12 @@ def test_tint_depth_makes_colored_glass(renderer):
 
 
 @pytest.mark.parametrize("style", ["fluid", "spheres"])
-def test_colors_have_the_same_bits_for_any_number_of_threads(style):
+def test_colors_have_the_same_bits_for_any_number_of_threads(style, backend):
     code = f"""
 import hashlib, numpy as np, pbfluids as pbf
 x = np.random.default_rng(1).uniform(-0.5, 0.5, (4000, 3)) - [0, 0, 2]
 params = pbf.RenderParams(style="{style}", radius=0.04, legend="x")
-with pbf.Renderer(320, 240) as renderer:
+with pbf.Renderer(320, 240, backend="{backend}") as renderer:
     image = renderer.render(x, pbf.Camera(eye=(0, 0, 0), target=(0, 0, -1)), params, values=x[:, 0])
 print(hashlib.sha256(image).hexdigest())
 """
@@ -308,10 +313,10 @@ def test_letters_are_sharp_ink_on_paper():
 
 @pytest.mark.parametrize("radius", [0.02, 0.15, 0.45])  # from points to what only quads can draw
 @pytest.mark.parametrize("x", [0.0, 0.75, -0.8])  # in the middle, and with a center out of sight
-def test_no_pixel_of_a_sphere_is_lost_whatever_its_size_and_place(radius, x):
+def test_no_pixel_of_a_sphere_is_lost_whatever_its_size_and_place(radius, x, backend):
     camera = pbf.Camera(**ALONG_Z, orthographic=True, height=1.2)  # a pixel is 1/400 m
     params = pbf.RenderParams(style="spheres", sphere_radius=radius)
-    with pbf.Renderer(600, 480) as large:
+    with pbf.Renderer(600, 480, backend=backend) as large:
         depth = large.layers([[x, 0.1, -2]], camera, params)["depth"]
     u, v = np.meshgrid((np.arange(600) - 299.5) / 400, -(np.arange(480) - 239.5) / 400)
     height2 = radius**2 - (u - x) ** 2 - (v - 0.1) ** 2

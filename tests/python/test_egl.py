@@ -107,7 +107,7 @@ def test_every_attempt_is_in_the_error_in_words(fake_egl):
     code = """
 import pbfluids as pbf
 try:
-    pbf.Renderer(16, 16)
+    pbf.Renderer(16, 16, backend="egl")
 except pbf.errors.RendererUnavailable as error:
     print(error)
 """
@@ -129,18 +129,62 @@ except pbf.errors.RendererUnavailable as error:
     assert "libstdcxx-ng" in done.stdout
 
 
-def test_without_a_driver_the_error_lists_the_attempts_and_the_cure():
-    code = """
+NO_DRIVER = {"__EGL_VENDOR_LIBRARY_DIRS": "/nowhere", "__EGL_VENDOR_LIBRARY_FILENAMES": ""}
+
+
+@pytest.mark.parametrize("wish", ['backend="egl"', 'device="software"', "device=0"])
+def test_a_driver_that_was_asked_for_and_is_not_there_is_an_error(wish):
+    code = f"""
 import pbfluids as pbf
 try:
-    pbf.Renderer(16, 16)
+    pbf.Renderer(16, 16, {wish})
 except pbf.errors.RendererUnavailable as error:
     print(error)
 """
-    done = run_python(code, __EGL_VENDOR_LIBRARY_DIRS="/nowhere", __EGL_VENDOR_LIBRARY_FILENAMES="")
+    done = run_python(code, PBF_EGL_DEVICE="", **NO_DRIVER)
+    if "device" in wish:
+        assert "there is no such device" in done.stdout
+    else:
+        assert "tried in this order:\n  EGL devices: " in done.stdout
+        assert "surfaceless" in done.stdout
+        assert "apt-get install libegl1 libgl1-mesa-dri" in done.stdout
+
+
+def test_without_a_driver_cpp_draws_and_says_why_once():
+    code = """
+import warnings
+import pbfluids as pbf
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    with pbf.Renderer(16, 16) as first, pbf.Renderer(16, 16) as second:
+        image = first.render([[0, 0, 0]], pbf.Camera())
+        print(image.shape, first.software, first.info["choice"])
+with pbf.Renderer(16, 16, backend="cpu") as third:
+    print((third.render([[0, 0, 0]], pbf.Camera()) == image).all())
+(warning,) = said
+print(warning.category.__name__, warning.message)
+"""
+    done = run_python(code, PBF_EGL_DEVICE="", **NO_DRIVER)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("(16, 16, 4) True there is no OpenGL\nTrue\nSoftwareRendering")
     assert "tried in this order:\n  EGL devices: " in done.stdout
-    assert "surfaceless" in done.stdout
     assert "apt-get install libegl1 libgl1-mesa-dri" in done.stdout
+    assert 'backend="cpu"' in done.stdout
+
+
+def test_on_software_cpp_draws_and_names_the_driver():
+    code = """
+import pbfluids as pbf
+with pbf.Renderer(16, 16) as mine, pbf.Renderer(16, 16, backend="egl") as shaders:
+    print(mine.software, shaders.software)
+    print(mine.description)
+    print(shaders.description)
+"""
+    done = run_python(code, PBF_EGL_DEVICE="software")
+    assert done.returncode == 0, done.stderr
+    software, mine, shaders = done.stdout.splitlines()
+    assert software == "True True"
+    assert mine == f"C++ on the processor, in place of {shaders}"
 
 
 @pytest.mark.parametrize(
@@ -225,7 +269,7 @@ import pbfluids as pbf
 pbf.Renderer(16, 16)
 """
     done = fake_egl(code, "file=/dev/dri/renderD128,fails=0x3002;software", PBF_EGL_DEVICE="")
-    assert "SoftwareRendering: llvmpipe" in done.stderr
+    assert "SoftwareRendering: C++ on the processor, in place of llvmpipe" in done.stderr
     assert "  EGL device 0 (/dev/dri/renderD128): the display cannot be opened" in done.stderr
     assert "EGL_BAD_ACCESS" in done.stderr
 
@@ -290,7 +334,7 @@ def test_another_user_of_opengl_is_not_disturbed():
     done = run_python(
         OTHER_USER
         + """
-renderer = pbf.Renderer(64, 48)
+renderer = pbf.Renderer(64, 48, backend="egl")
 check()
 image = renderer.render([[0, 0, 0]], pbf.Camera())
 check()
@@ -298,7 +342,7 @@ try:
     renderer.render([[0, 0, float("nan")]], pbf.Camera())
 except pbf.FluidError:
     check()
-with pbf.Renderer(16, 16) as second:
+with pbf.Renderer(16, 16, backend="egl") as second:
     check()
 check()
 assert np.array_equal(renderer.render([[0, 0, 0]], pbf.Camera()), image)
@@ -314,7 +358,7 @@ def test_somebody_else_s_terminate_is_an_error_and_not_the_end():
     done = run_python(
         OTHER_USER
         + """
-renderer = pbf.Renderer(16, 16, device="surfaceless")  # the same display
+renderer = pbf.Renderer(16, 16, device="surfaceless", backend="egl")  # the same display
 egl.eglMakeCurrent(display, None, None, None)
 assert egl.eglTerminate(display)
 try:
@@ -324,7 +368,7 @@ except pbf.errors.GlError as error:
     assert "EGL_" in str(error), error
     print("refused")
 renderer.close()
-with pbf.Renderer(16, 16, device="surfaceless") as again:
+with pbf.Renderer(16, 16, device="surfaceless", backend="egl") as again:
     again.render([[0, 0, 0]], pbf.Camera())
 """
     )

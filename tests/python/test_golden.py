@@ -14,7 +14,7 @@ pytestmark = pytest.mark.gl
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.mark.parametrize("backend", [None, "egl"])
+@pytest.mark.parametrize("backend", ["cpu", "egl"])
 @pytest.mark.parametrize("name", golden.GOLDEN)
 def test_a_picture_is_what_it_was(name, backend):
     found = golden.GOLDEN[name].draw(backend)
@@ -60,6 +60,6 @@ def test_a_defect_in_a_shader_is_found(tmp_path, monkeypatch, shader, defect, se
     sound = path.read_text(encoding="utf-8").replace("void main()", "void sound()")
     path.write_text(f"{sound}\nvoid main() {{ sound(); {defect} }}\n", encoding="utf-8")
     monkeypatch.setenv("PBF_GLSL_DIR", str(tmp_path / "glsl"))
-    pictures = {name: picture.draw(None) for name, picture in golden.GOLDEN.items()}
+    pictures = {name: picture.draw("egl") for name, picture in golden.GOLDEN.items()}
     complaints = [name for name in pictures if golden.complaint(name, pictures[name], tmp_path)]
     assert complaints == seen_in

@@ -17,9 +17,14 @@ CLOUD = np.concatenate([BLOCK, DROPS])
 WATER = {"radius": 0.048, "drop_radius": 0.0248, "particle_volume": 0.04**3}
 
 
+@pytest.fixture(scope="module", params=["cpu", "egl"])
+def backend(request):
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def renderer():
-    with pbf.Renderer(160, 120) as made:
+def renderer(backend):
+    with pbf.Renderer(160, 120, backend=backend) as made:
         yield made
 
 
@@ -81,10 +86,10 @@ def test_a_floor_is_opaque_and_fades_into_transparency(renderer):
 
 
 @pytest.mark.parametrize("factor", [2, 3, 4])
-def test_supersampling_is_the_mean_of_the_larger_picture_in_linear_light(renderer, factor):
+def test_supersampling_is_the_mean_of_the_larger_picture_in_linear_light(renderer, backend, factor):
     camera, params = pbf.Camera(**ALONG_Z), pbf.RenderParams(**WATER, floor_height=-0.4)
     fine = renderer.render(CLOUD, camera, params.replace(supersampling=factor))
-    with pbf.Renderer(160 * factor, 120 * factor) as larger:
+    with pbf.Renderer(160 * factor, 120 * factor, backend=backend) as larger:
         pixels = linear(larger.render(CLOUD, camera, params)[..., :3])
     mean = pixels.reshape(120, factor, 160, factor, 3).mean(axis=(1, 3))
     assert np.abs(fine[..., :3] - encoded(mean)).max() < 1
@@ -212,9 +217,9 @@ def test_impossible_pictures_are_refused(fields, match):
         pbf.RenderParams(**fields)
 
 
-def test_a_picture_that_supersampling_makes_too_large_is_refused_and_changes_nothing():
+def test_a_picture_that_supersampling_makes_too_large_is_refused_and_changes_nothing(backend):
     camera, cloud = pbf.Camera(**ALONG_Z), [[0, 0, -1]]
-    with pbf.Renderer(8192, 2) as wide:
+    with pbf.Renderer(8192, 2, backend=backend) as wide:
         once = wide.render(cloud, camera)
         with pytest.raises(errors.InvalidParameter, match="with supersampling = 4"):
             wide.render(cloud, camera, pbf.RenderParams(supersampling=4))

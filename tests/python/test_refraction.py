@@ -38,9 +38,9 @@ def directions(width=512):
     return 0.25 + 0.25 * np.stack(ways, axis=-1)
 
 
-@pytest.fixture(scope="module")
-def renderer():
-    with pbf.Renderer(120, 120, environment_map=directions()) as made:
+@pytest.fixture(scope="module", params=["cpu", "egl"])
+def renderer(request):
+    with pbf.Renderer(120, 120, environment_map=directions(), backend=request.param) as made:
         yield made
 
 

@@ -17,9 +17,14 @@ WALL = pbf.block((-1.6, -1.2, -2.0), (1.6, 1.2, -1.7), spacing=0.04)
 SUN = np.array([0, 1, 1]) / np.sqrt(2)
 
 
+@pytest.fixture(scope="module", params=["cpu", "egl"])
+def backend(request):
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def renderer():
-    with pbf.Renderer(160, 120) as made:
+def renderer(backend):
+    with pbf.Renderer(160, 120, backend=backend) as made:
         yield made
 
 
@@ -283,11 +288,11 @@ def test_impossible_maps_are_refused(renderer, light, error, match):
 
 
 @pytest.mark.parametrize("field", ["background", "reflection"])
-def test_without_a_map_there_is_none_to_show(renderer, field):
+def test_without_a_map_there_is_none_to_show(renderer, backend, field):
     camera = pbf.Camera(**ALONG_Z)
     with pytest.raises(errors.InvalidParameter, match="the renderer has no environment map"):
         renderer.render(NOTHING, camera, pbf.RenderParams(**{field: "map"}))
-    with pbf.Renderer(16, 16, environment_map=np.ones((2, 4, 3))) as mine:
+    with pbf.Renderer(16, 16, environment_map=np.ones((2, 4, 3)), backend=backend) as mine:
         assert mine.render(NOTHING, camera, params(**{field: "map"})).min() == 255
 
 
@@ -321,9 +326,9 @@ TABLE = rectangle((0.6, 0.0), (0.9, 0.3), 0.2)
     ],
     ids=str,
 )
-def test_the_background_that_is_kept_follows_every_change(renderer, change):
+def test_the_background_that_is_kept_follows_every_change(renderer, backend, change):
     before, after = STILL, {**STILL, **change}
-    with pbf.Renderer(160, 120) as fresh:
+    with pbf.Renderer(160, 120, backend=backend) as fresh:
         expected = fresh.render(**after)
     first = renderer.render(**before)
     assert np.array_equal(renderer.render(**before), first)

@@ -24,7 +24,7 @@ WIDTH, HEIGHT = 224, 126
 #: near black makes 4 of it.
 LEVELS = 8
 
-Backend = Literal["egl"] | None
+Backend = Literal["cpu", "egl"] | None
 Pixels = npt.NDArray[np.uint8]
 
 SPACING = 0.025

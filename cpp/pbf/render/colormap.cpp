@@ -14,6 +14,15 @@ constexpr std::array<Table, Choices<Colormap>::names.size()> kTables{{
 
 }  // namespace
 
+std::uint32_t encoded_color(const Vec3& linear) {
+  std::uint32_t color = 0;
+  for (const Real c : linear) {
+    const Real curved = c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1 / 2.4F) - 0.055F;
+    color = color << 8U | static_cast<std::uint32_t>(std::lround(255 * curved));
+  }
+  return color;
+}
+
 const Table& table_of(Colormap map) { return kTables[static_cast<std::size_t>(map)]; }
 
 ColorRange range_of(const ScalarsView& values) {

@@ -2,6 +2,7 @@
 
 #include "pbf/core/fields.hpp"
 
+#include <bit>
 #include <cstdint>
 
 namespace pbf {
@@ -19,6 +20,12 @@ using ColorRange = std::array<Real, 2>;
 
 /// 0xrrggbb, sRGB-encoded.
 using Colors = std::vector<std::uint32_t>;
+
+/// Of linear light.
+std::uint32_t encoded_color(const Vec3& linear);
+
+/// In the digits of a float, as glsl/color.glsl reads it.
+inline float packed_color(std::uint32_t color) { return std::bit_cast<float>(0x3F000000U | color); }
 
 /// Colors of a map from its least to its greatest value.
 inline constexpr int kColormapSize = 256;

@@ -9,6 +9,10 @@ namespace pbf {
 /// where y is up. Linear red, green and blue.
 using EnvironmentMap = Pixels<float>;
 
+/// Half floats, which textures hold, end there; the sun of a clear sky is brighter, but no screen
+/// shows it.
+inline constexpr float kBrightest = 60'000;
+
 /// Throws InvalidParameter unless it has three channels of finite numbers >= 0, and a pixel.
 void validate(const EnvironmentMap& map);
 

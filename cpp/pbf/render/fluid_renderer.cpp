@@ -17,7 +17,6 @@
 #include "pbf/render/passes/spheres.hpp"
 #include "pbf/render/passes/thickness.hpp"
 #include "pbf/render/passes/tint.hpp"
-#include "pbf/render/raster/surface_maps.hpp"
 #include "pbf/render/read_back.hpp"
 #include "pbf/render/target.hpp"
 
@@ -39,39 +38,6 @@ void require_drawable(int width, int height, int factor) {
   }
 }
 
-void require_values(const ScalarsView& values, Index particles) {
-  if (values.size() != 0 && values.size() != particles) {
-    throw InvalidParameter("values: " + std::to_string(values.size()) + " for " +
-                           std::to_string(particles) + " particles; there must be one for each");
-  }
-  for (Index i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) {
-      throw InvalidParameter("values: that of particle " + std::to_string(i) +
-                             " is not finite; every one must be");
-    }
-  }
-}
-
-/// 0xrrggbb, sRGB-encoded.
-std::uint32_t encoded(const Vec3& linear) {
-  std::uint32_t color = 0;
-  for (const Real c : linear) {
-    const Real curved = c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1 / 2.4F) - 0.055F;
-    color = color << 8U | static_cast<std::uint32_t>(std::lround(255 * curved));
-  }
-  return color;
-}
-
-/// The parameters of a shadow as deep as what is drawn is opaque.
-RenderParams for_shadow(RenderParams params, bool colored) {
-  if (params.style == Style::spheres) {
-    params.absorption = Vec3::Constant(2 / params.sphere_radius_in_force());
-  } else if (colored) {
-    params.absorption = params.tint_absorption();
-  }
-  return params;
-}
-
 void require_no_gl_error() {
   if (const GLenum error = glGetError(); error == GL_OUT_OF_MEMORY) {
     throw std::bad_alloc();
@@ -80,21 +46,15 @@ void require_no_gl_error() {
   }
 }
 
-void upload(const raster::Map& map, const Texture& texture) {
-  texture.upload(map.row(0), static_cast<GLint>(map.pitch()));
-}
-
 }  // namespace
 
 /// Compiled once. Whether depth, thickness and back depth come about at once is the driver's
 /// ability.
 struct FluidRenderer::Passes {
-  Passes(bool one_pass, bool in_cpp)
+  explicit Passes(bool one_pass)
       : sphere_depth(glsl_source, one_pass),
         thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)),
-        back_depth(one_pass ? nullptr : std::make_unique<BackDepth>(glsl_source)),
-        smooth(in_cpp ? nullptr : std::make_unique<Smooth>(glsl_source)),
-        curvature_flow(in_cpp ? nullptr : std::make_unique<CurvatureFlow>(glsl_source)) {}
+        back_depth(one_pass ? nullptr : std::make_unique<BackDepth>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
   Crowding crowding;
   Anisotropy anisotropy;
@@ -102,9 +62,8 @@ struct FluidRenderer::Passes {
   SphereDepth sphere_depth;
   std::unique_ptr<Thickness> thickness;
   std::unique_ptr<BackDepth> back_depth;
-  // Compiling takes longer than a frame: not what the C++ passes do.
-  std::unique_ptr<Smooth> smooth;
-  std::unique_ptr<CurvatureFlow> curvature_flow;
+  Smooth smooth{glsl_source};
+  CurvatureFlow curvature_flow{glsl_source};
   Normal normal{glsl_source};
   ColoredParticles colored;
   Spheres spheres{glsl_source};
@@ -152,18 +111,18 @@ struct FluidRenderer::Targets {
   int width, height;
 };
 
-FluidRenderer::FluidRenderer(int width,
-                             int height,
-                             const std::string& device,
-                             SurfacePasses surface)
+FluidRenderer::FluidRenderer(int width, int height, const std::string& device)
+    : FluidRenderer(checked_side(width, "width"),
+                    checked_side(height, "height"),
+                    std::make_unique<EglContext>(device)) {}
+
+FluidRenderer::FluidRenderer(int width, int height, std::unique_ptr<EglContext> context)
     : width_(checked_side(width, "width")),
       height_(checked_side(height, "height")),
-      context_(device) {
-  const auto current = context_.make_current();
+      context_(std::move(context)) {
+  const auto current = context_->make_current();
   require_drawable(width, height, 1);
-  const bool outrun = context_.info().software;
-  in_cpp_ = surface == SurfacePasses::cpp || (surface == SurfacePasses::automatic && outrun);
-  auto passes = std::make_unique<Passes>(context_.has_version(4, 0), in_cpp_);
+  auto passes = std::make_unique<Passes>(context_->has_version(4, 0));
   prepare_targets(1);
   require_no_gl_error();
   passes_ = std::move(passes);
@@ -173,12 +132,11 @@ void FluidRenderer::prepare_targets(int factor) {
   if (targets_ != nullptr && targets_->width == factor * width_) return;
   require_drawable(width_, height_, factor);
   targets_ = std::make_unique<Targets>(factor * width_, factor * height_);
-  if (in_cpp_) maps_ = std::make_unique<raster::SurfaceMaps>(factor * width_, factor * height_);
 }
 
 FluidRenderer::~FluidRenderer() {
   try {
-    const auto current = context_.make_current();
+    const auto current = context_->make_current();
     targets_.reset();
     passes_.reset();
     environment_map_.reset();
@@ -204,14 +162,13 @@ Surface FluidRenderer::draw(const PointsView& positions,
                             const Camera& camera,
                             const RenderParams& params,
                             const Colors& colors,
-                            bool exact) {
+                            bool with_back) {
   report_ = {.particles = positions.cols(), .milliseconds = {}};
   const FrameBlock frame = frame_block(camera, targets_->width, targets_->height);
   passes_->frame.upload(&frame, sizeof frame);
   passes_->frame.bind_base(0);
   if (params.style == Style::spheres) return draw_spheres(positions, camera, frame, params, colors);
-  Surface surface = maps_ ? draw_in_cpp(positions, camera, params, exact)
-                          : draw_in_glsl(positions, camera, frame, params);
+  Surface surface = draw_fluid(positions, camera, frame, params, with_back);
   if (!colors.empty()) {
     surface.tint = &draw_tint(positions, camera, frame, surface.depth, params, colors);
   }
@@ -227,7 +184,7 @@ Surface FluidRenderer::draw_spheres(const PointsView& positions,
   const Real radius = params.sphere_radius_in_force();
   stage("upload", [&] {
     const Colors all_alike(static_cast<std::size_t>(positions.cols()),
-                           encoded(params.sphere_color));
+                           encoded_color(params.sphere_color));
     passes_->colored.upload(positions, colors.empty() ? all_alike : colors, radius, camera.eye,
                             frame);
     to.tiles.find(positions, frame, radius);
@@ -257,37 +214,11 @@ const Texture& FluidRenderer::draw_tint(const PointsView& positions,
   return to.tint->texture;
 }
 
-Surface FluidRenderer::draw_in_cpp(const PointsView& positions,
-                                   const Camera& camera,
-                                   const RenderParams& params,
-                                   bool exact) {
-  Targets& to = *targets_;
-  maps_->find(positions, camera, params, exact);
-  if (timed_) report_.milliseconds = maps_->milliseconds();
-  stage("upload", [&] {
-    upload(maps_->depth(), to.depth.texture);
-    upload(maps_->depth_smooth(), to.depth_smooth.texture);
-    upload(maps_->thickness_smooth(), to.thickness_smooth.texture);
-    upload(maps_->back_smooth(), to.back_smooth.texture);
-    to.tiles.upload(maps_->tiles());
-  });
-  stage("normal", [&] {
-    passes_->normal(to.tiles, to.depth_smooth.texture, to.depth.texture, params,
-                    to.normal.framebuffer);
-  });
-  return {to.tiles,
-          to.depth_smooth.texture,
-          to.thickness_smooth.texture,
-          to.back_smooth.texture,
-          to.normal.texture,
-          to.depth.texture,
-          nullptr};
-}
-
-Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
-                                    const Camera& camera,
-                                    const FrameBlock& frame,
-                                    const RenderParams& params) {
+Surface FluidRenderer::draw_fluid(const PointsView& positions,
+                                  const Camera& camera,
+                                  const FrameBlock& frame,
+                                  const RenderParams& params,
+                                  bool with_back) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
   stage("crowding",
@@ -323,8 +254,8 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                           const Target& out) {
     const Texture* last = &values;
     iterate(filter, iterations, frame, nearest, [&](const LayerFilter& with) {
-      (*pass.smooth)(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
-                     to.between.texture, out.framebuffer);
+      pass.smooth(with, to.tiles, *last, to.depth.texture, to.between.framebuffer,
+                  to.between.texture, out.framebuffer);
       last = &out.texture;
     });
     return last;
@@ -338,15 +269,17 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
       const FlowSchedule schedule =
           flow_schedule(filter, params.smoothing_iterations, frame, nearest);
       // What is in the other two is not needed yet.
-      (*pass.curvature_flow)(filter, schedule, to.tiles, *depth, *depth,
-                             {&to.depth_smooth, &to.between, &to.thickness_smooth});
+      pass.curvature_flow(filter, schedule, to.tiles, *depth, *depth,
+                          {&to.depth_smooth, &to.between, &to.thickness_smooth});
       depth = &to.depth_smooth.texture;
     }
   });
-  stage("back_smooth", [&] {
-    (*pass.smooth)(back_filter(params), to.tiles, to.back.texture, to.depth.texture,
-                   to.between.framebuffer, to.between.texture, to.back_smooth.framebuffer);
-  });
+  if (with_back) {
+    stage("back_smooth", [&] {
+      pass.smooth(back_filter(params), to.tiles, to.back.texture, to.depth.texture,
+                  to.between.framebuffer, to.between.texture, to.back_smooth.framebuffer);
+    });
+  }
   const Texture* thickness = &to.thickness.texture;
   stage("thickness_smooth", [&] {
     thickness = smooth(thickness_filter(params), params.thickness_iterations, *thickness,
@@ -363,25 +296,17 @@ Image FluidRenderer::render(const PointsView& positions,
                             const RenderParams& params,
                             const Meshes& meshes,
                             const ScalarsView& values) {
-  validate(camera);
-  validate(params);
-  require_finite(positions);
-  require_values(values, positions.cols());
-  if (params.shows_map() && environment_map_ == nullptr) {
-    throw InvalidParameter(
-        "RenderParams.background or reflection = \"map\": the renderer has no environment map; "
-        "give it one");
-  }
+  require_sound(positions, camera, params, values, environment_map_ != nullptr);
   const ColorRange range = params.color_range.value_or(range_of(values));
-  const auto current = context_.make_current();
+  const auto current = context_->make_current();
   const int factor = params.supersampling;
   prepare_targets(factor);
   Targets& to = *targets_;
   const Surface surface =
-      draw(positions, camera, params, colors_of(values, params.colormap, range), false);
+      draw(positions, camera, params, colors_of(values, params.colormap, range), true);
   SunShadow shadow;
   stage("shadow", [&] {
-    shadow = sun_shadow(positions, for_shadow(params, surface.tint != nullptr), meshes);
+    shadow = sun_shadow(positions, shadow_params(params, surface.tint != nullptr), meshes);
   });
   stage("composite", [&] {
     if (!meshes.empty() && to.meshes == nullptr) {
@@ -409,7 +334,7 @@ Image FluidRenderer::render(const PointsView& positions,
 }
 
 void FluidRenderer::set_environment_map(const std::optional<EnvironmentMap>& map) {
-  const auto current = context_.make_current();
+  const auto current = context_->make_current();
   passes_->composite.forget_backdrop();
   if (!map) {
     environment_map_.reset();
@@ -417,8 +342,6 @@ void FluidRenderer::set_environment_map(const std::optional<EnvironmentMap>& map
   }
   validate(*map);
   require_drawable(map->width, map->height, 1);
-  // Half floats end there; the sun of a clear sky is brighter, but no screen shows it.
-  constexpr float kBrightest = 60'000;
   std::vector<float> texels;
   texels.reserve(map->data.size() / 3 * 4);
   for (int y = map->height - 1; y >= 0; --y) {
@@ -435,12 +358,10 @@ void FluidRenderer::set_environment_map(const std::optional<EnvironmentMap>& map
 Layers FluidRenderer::layers(const PointsView& positions,
                              const Camera& camera,
                              const RenderParams& params) {
-  validate(camera);
-  validate(params);
-  require_finite(positions);
-  const auto current = context_.make_current();
+  require_sound(positions, camera, params);
+  const auto current = context_->make_current();
   prepare_targets(1);
-  const Surface surface = draw(positions, camera, params, {}, true);
+  const Surface surface = draw(positions, camera, params, {}, false);
   Layers layers;
   stage("read_back", [&] {
     if (params.style == Style::spheres) {
@@ -448,7 +369,6 @@ Layers FluidRenderer::layers(const PointsView& positions,
       layers.normal = read_floats(surface.normal, 3);
       return;
     }
-    if (maps_ != nullptr) upload(maps_->thickness(), targets_->thickness.texture);
     layers = {.depth = read_depth(targets_->depth.texture, camera),
               .depth_smooth = read_depth(surface.depth, camera),
               .thickness = read_floats(targets_->thickness.texture, 1),

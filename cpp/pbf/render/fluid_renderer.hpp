@@ -17,20 +17,9 @@ namespace pbf {
 struct FrameBlock;
 struct Surface;
 class Texture;
-namespace raster {
-class SurfaceMaps;
-}
 
-/// Who draws up to the smoothed surface: shaders, or the passes in C++ (raster/). The picture is
-/// drawn by shaders.
-enum class SurfacePasses {
-  automatic,  ///< in C++ where the driver is Mesa's software one, which they outrun
-  glsl,
-  cpp,
-};
-class Texture;
-
-/// Draws particles as a fluid: screen-space rendering in six passes [vdL09].
+/// Draws particles as a fluid with OpenGL: screen-space rendering in six passes [vdL09]. Where the
+/// driver draws on the processor, CpuRenderer does the same several times faster.
 ///
 /// Any thread may use it, one at a time; several renderers may live in one thread or in several. In
 /// a process forked from the one that made it, every call throws GlError.
@@ -38,10 +27,9 @@ class FluidRenderer {
  public:
   /// @param device  which to draw on, as for device_wish(); empty leaves the choice open
   /// Throws InvalidParameter for a size the driver cannot draw, RendererUnavailable without OpenGL.
-  FluidRenderer(int width,
-                int height,
-                const std::string& device = "",
-                SurfacePasses passes = SurfacePasses::automatic);
+  FluidRenderer(int width, int height, const std::string& device = "");
+  /// Draws with a context that is there already.
+  FluidRenderer(int width, int height, std::unique_ptr<EglContext> context);
   ~FluidRenderer();
   FluidRenderer(const FluidRenderer&) = delete;
   FluidRenderer& operator=(const FluidRenderer&) = delete;
@@ -60,7 +48,7 @@ class FluidRenderer {
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  [[nodiscard]] const EglContext& context() const { return context_; }
+  [[nodiscard]] const EglContext& context() const { return *context_; }
   [[nodiscard]] const RenderReport& report() const { return report_; }
   /// Waiting for each pass costs time: only for whoever wants to know.
   void set_timed(bool timed) { timed_ = timed; }
@@ -75,15 +63,12 @@ class FluidRenderer {
                const Camera& camera,
                const RenderParams& params,
                const Colors& colors,
-               bool exact);
-  Surface draw_in_glsl(const PointsView& positions,
-                       const Camera& camera,
-                       const FrameBlock& frame,
-                       const RenderParams& params);
-  Surface draw_in_cpp(const PointsView& positions,
-                      const Camera& camera,
-                      const RenderParams& params,
-                      bool exact);
+               bool with_back);
+  Surface draw_fluid(const PointsView& positions,
+                     const Camera& camera,
+                     const FrameBlock& frame,
+                     const RenderParams& params,
+                     bool with_back);
   Surface draw_spheres(const PointsView& positions,
                        const Camera& camera,
                        const FrameBlock& frame,
@@ -101,11 +86,9 @@ class FluidRenderer {
 
   int width_, height_;
   bool timed_ = false;
-  EglContext context_;
+  std::unique_ptr<EglContext> context_;
   std::unique_ptr<Passes> passes_;
   std::unique_ptr<Targets> targets_;
-  std::unique_ptr<raster::SurfaceMaps> maps_;  ///< null where shaders draw the surface
-  bool in_cpp_ = false;
   std::unique_ptr<Texture> environment_map_;
   RenderReport report_;
 };

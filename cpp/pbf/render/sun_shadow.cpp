@@ -156,6 +156,15 @@ Grid blurred(const Grid& grid, const SunShadow& map, int stride) {
 
 }  // namespace
 
+RenderParams shadow_params(RenderParams params, bool tinted) {
+  if (params.style == Style::spheres) {
+    params.absorption = Vec3::Constant(2 / params.sphere_radius_in_force());
+  } else if (tinted) {
+    params.absorption = params.tint_absorption();
+  }
+  return params;
+}
+
 SunShadow sun_shadow(const PointsView& positions,
                      const RenderParams& params,
                      const Meshes& meshes) {

@@ -28,6 +28,10 @@ struct SunShadow {
   [[nodiscard]] bool casts_none() const { return width == 1 && height == 1; }
 };
 
+/// The parameters of a shadow that is as deep as what is drawn is opaque.
+/// @param tinted  fluid has its particles' colors
+RenderParams shadow_params(RenderParams params, bool tinted);
+
 /// One white texel where there is no shadow: without fluid and meshes, with the sun below the
 /// floor, or with params.shadow = 0.
 SunShadow sun_shadow(const PointsView& positions,

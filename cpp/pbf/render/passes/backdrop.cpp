@@ -2,6 +2,7 @@
 
 #include "pbf/gl/draw.hpp"
 #include "pbf/render/passes/fluid_tiles.hpp"
+#include "pbf/render/shadow_rectangle.hpp"
 
 namespace pbf {
 
@@ -12,7 +13,8 @@ Backdrop::Backdrop(const GlslSource& source)
                 .defines = {}}),
       squares_(GL_ARRAY_BUFFER) {
   squares_array_.instances(squares_, 3, 0);
-  (void)program_.with(environment_defines({}, true));  // an error in a shader shows now
+  // An error in a shader shows now.
+  (void)program_.with(environment_defines(environment_of({}, {}), true));
 }
 
 void Backdrop::operator()(const Surroundings& surroundings,
@@ -39,10 +41,11 @@ void Backdrop::draw(bool in_shadow,
                     const RenderParams& params,
                     const Framebuffer& out) {
   constexpr int kSide = FluidTiles::kSide;
+  const Environment environment = environment_of(params, camera);
   const Rectangle all{0, 0, out.width(), out.height()};
-  const Rectangle reach =
-      in_shadow ? shadow_rectangle(surroundings.shadow, camera, params, out.width(), out.height())
-                : all;
+  const Rectangle reach = in_shadow ? shadow_rectangle(surroundings.shadow, camera, environment,
+                                                       out.width(), out.height())
+                                    : all;
   std::vector<float> corners;
   for (int y = reach.y0 / kSide * kSide; y < reach.y1; y += kSide) {
     for (int x = reach.x0 / kSide * kSide; x < reach.x1; x += kSide) {
@@ -51,9 +54,9 @@ void Backdrop::draw(bool in_shadow,
   }
   if (corners.empty()) return;
   out.bind();
-  const Program& program = program_.with(environment_defines(params, in_shadow));
+  const Program& program = program_.with(environment_defines(environment, in_shadow));
   program.use();
-  set_environment(program, surroundings, camera, params);
+  set_environment(program, surroundings, environment);
   squares_.upload(corners.data(), static_cast<GLsizeiptr>(corners.size() * sizeof(float)));
   set_draw_state(Blend::replace);
   squares_array_.bind();

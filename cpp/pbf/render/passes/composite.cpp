@@ -34,8 +34,9 @@ Composite::Composite(const GlslSource& source)
                    .defines = {}}),
       opaque_meshes_(source) {
   // An error in a shader shows when the renderer is made.
-  (void)fluid_.with(environment_defines({}, true));
-  (void)spheres_.with(environment_defines({}, true));
+  const auto defines = environment_defines(environment_of({}, {}), true);
+  (void)fluid_.with(defines);
+  (void)spheres_.with(defines);
   (void)tank_edges_.with({});
 }
 
@@ -64,12 +65,13 @@ void Composite::operator()(const Surface& surface,
   }
   out.bind();
   const Vec3 absorption = surface.tint != nullptr ? params.tint_absorption() : params.absorption;
+  const Environment environment = environment_of(params, camera);
   const bool opaque = params.style == Style::spheres;
   const Program& body =
       (opaque ? spheres_ : fluid_)
-          .with(with_meshes(environment_defines(params, !sun.casts_none()), meshes));
+          .with(with_meshes(environment_defines(environment, !sun.casts_none()), meshes));
   body.use();
-  set_environment(body, surroundings, camera, params);
+  set_environment(body, surroundings, environment);
   body.set("u_depth", kDepth);
   body.set("u_thickness", kThickness);
   body.set("u_back", kBack);

@@ -29,9 +29,10 @@ void OpaqueMeshes::operator()(const Meshes& meshes,
   to.framebuffer.clear(1, {0, 0, 0, 0});
   to.framebuffer.clear(2, {kNothing, 0, 0, 0});
   to.framebuffer.clear_depth();
-  const Program& program = program_.with(environment_defines(params, false));
+  const Environment environment = environment_of(params, camera);
+  const Program& program = program_.with(environment_defines(environment, false));
   program.use();
-  set_environment(program, surroundings, camera, params);
+  set_environment(program, surroundings, environment);
   set_draw_state(Blend::nearest);
   std::vector<float> corners;
   for (const auto& mesh : meshes) {

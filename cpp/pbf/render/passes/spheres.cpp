@@ -4,7 +4,6 @@
 #include "pbf/render/passes/sphere_depth.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace pbf {
@@ -13,9 +12,6 @@ namespace {
 /// Less than Mesa's software driver can draw, which is 255 pixels; the graphics card that draws
 /// less has not been built.
 constexpr Real kLargestPoint = 200;
-
-/// As glsl/color.glsl reads it.
-float packed(std::uint32_t color) { return std::bit_cast<float>(0x3F000000U | color); }
 
 }  // namespace
 
@@ -52,7 +48,8 @@ void ColoredParticles::upload(const PointsView& positions,
   for (Index i = 0; i < n; ++i) {
     const Vec3 x = positions.col(i);
     const auto row = static_cast<std::size_t>(i);
-    sorted_[static_cast<Index>(begin[shell[row]]++)] = {x.x(), x.y(), x.z(), packed(colors[row])};
+    sorted_[static_cast<Index>(begin[shell[row]]++)] = {x.x(), x.y(), x.z(),
+                                                        packed_color(colors[row])};
   }
   count_ = static_cast<GLsizei>(n);
   buffer_.upload(sorted_.data(), count_ * static_cast<GLsizeiptr>(sizeof(Record)));

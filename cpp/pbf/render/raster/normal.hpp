@@ -1,25 +1,27 @@
 #pragma once
 
-#include "pbf/render/camera.hpp"
-#include "pbf/render/image.hpp"
+#include "pbf/render/frame_block.hpp"
 #include "pbf/render/params.hpp"
 #include "pbf/render/raster/map.hpp"
 
 namespace pbf::raster {
 
-/// The pass normal in C++: unit normals in eye space, 0 where there is no fluid.
+/// Unit normals in eye space, 0 where there is no fluid.
+struct NormalMaps {
+  NormalMaps(int width, int height)
+      : x(width, height, 0), y(width, height, 0), z(width, height, 0) {}
+  Map x, y, z;
+};
+
+/// The pass normal in C++.
 /// @param depth    affine depth
 /// @param spheres  that of the spheres, with their crowding
-Pixels<float> normal(const Map& depth,
-                     const Map& spheres,
-                     const Tiles& tiles,
-                     const Camera& camera,
-                     const RenderParams& params,
-                     int threads);
-
-// Maps as layers, row 0 on top.
-Pixels<float> pixels(const Map& map);
-/// Affine depth as depth [m], 0 where there is no fluid.
-Pixels<float> depth_pixels(const Map& map, const Camera& camera);
+void normal(const Map& depth,
+            const Map& spheres,
+            const Tiles& tiles,
+            const FrameBlock& frame,
+            const RenderParams& params,
+            NormalMaps& out,
+            int threads);
 
 }  // namespace pbf::raster

@@ -190,6 +190,32 @@ void Splats::find_large() {
   mark(all, tiles_);
 }
 
+Splats::Sprites Splats::with_large(Index first, Index count) const {
+  const auto large = static_cast<Index>(large_.size());
+  Sprites together;
+  together.resize(large + count, all_.stretches.size() > 0);
+  for (Index k = 0; k < large; ++k) together.set(k, all_, large_[static_cast<std::size_t>(k)]);
+  for (Index k = 0; k < count; ++k) together.set(large + k, binned_, first + k);
+  return together;
+}
+
+void Splats::for_tiles(int threads, const std::function<TileLoop>& f) const {
+  const std::vector<Tile> tiles = tiles_.list();
+  parallel_chunks(static_cast<Index>(tiles.size()), threads, 1, [&](Index first, Index) {
+    const Tile tile = tiles[static_cast<std::size_t>(first)];
+    const auto number = static_cast<std::size_t>(tile.y / kTileSide * tiles_.columns()) +
+                        static_cast<std::size_t>(tile.x / kTileSide);
+    const auto own = static_cast<Index>(starts_[number]);
+    const auto count = static_cast<Index>(starts_[number + 1]) - own;
+    if (large_.empty()) {
+      f(tile, binned_.centers.data() + own, binned_.stretches_from(own), count);
+      return;
+    }
+    const Sprites together = with_large(own, count);
+    f(tile, together.centers.data(), together.stretches_from(0), together.centers.size());
+  });
+}
+
 void Splats::draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   thickness.begin(tiles_);
@@ -197,31 +223,11 @@ void Splats::draw(const SplatView& view, Map* depth, Map& thickness, Map* back, 
     depth->begin(tiles_);
     back->begin(tiles_);
   }
-  const std::vector<Tile> tiles = tiles_.list();
-  parallel_chunks(static_cast<Index>(tiles.size()), threads, 1, [&](Index first, Index) {
-    const Tile tile = tiles[static_cast<std::size_t>(first)];
-    const auto number = static_cast<std::size_t>(tile.y / kTileSide * tiles_.columns()) +
-                        static_cast<std::size_t>(tile.x / kTileSide);
-    const auto draw = [&](const Sprites& sprites, Index from, Index count) {
-      const std::ptrdiff_t at = tile.y * thickness.pitch() + tile.x;
-      kernels.draw(sprites.centers.data() + from, sprites.stretches_from(from), count, view, tile,
-                   depth == nullptr ? nullptr : depth->row(0) + at, thickness.row(0) + at,
-                   depth == nullptr ? nullptr : back->row(0) + at, thickness.pitch());
-    };
-    const auto own = static_cast<Index>(starts_[number]);
-    const auto count = static_cast<Index>(starts_[number + 1]) - own;
-    if (large_.empty()) {
-      draw(binned_, own, count);
-      return;
-    }
-    const auto large = static_cast<Index>(large_.size());
-    Sprites together;
-    together.resize(large + count, all_.stretches.size() > 0);
-    for (Index k = 0; k < large; ++k) {
-      together.set(k, all_, large_[static_cast<std::size_t>(k)]);
-    }
-    for (Index k = 0; k < count; ++k) together.set(large + k, binned_, own + k);
-    draw(together, 0, large + count);
+  for_tiles(threads, [&](Tile tile, const Record* centers, const Record* stretches, Index count) {
+    const std::ptrdiff_t at = tile.y * thickness.pitch() + tile.x;
+    kernels.draw(centers, stretches, count, view, tile,
+                 depth == nullptr ? nullptr : depth->row(0) + at, thickness.row(0) + at,
+                 depth == nullptr ? nullptr : back->row(0) + at, thickness.pitch());
   });
 }
 

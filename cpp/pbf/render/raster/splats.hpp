@@ -5,6 +5,7 @@
 #include "pbf/render/raster/map.hpp"
 #include "pbf/render/raster/splat_kernels.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace pbf::raster {
@@ -27,6 +28,10 @@ class Splats {
   /// @param thickness  [m]
   /// @param back       affine depth of the farthest far side; given with depth
   void draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const;
+  using TileLoop = void(Tile tile, const Record* centers, const Record* stretches, Index count);
+  /// Calls f for each tile that sprites cover, several at once: centers in eye space, with the
+  /// fourth number that they came with.
+  void for_tiles(int threads, const std::function<TileLoop>& f) const;
   /// Those that sprites cover.
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
 
@@ -42,6 +47,8 @@ class Splats {
     }
   };
   void find_large();
+  /// These of binned_ behind the large ones.
+  [[nodiscard]] Sprites with_large(Index first, Index count) const;
 
   Tiles tiles_{1, 1};
   Sprites all_, binned_;

@@ -17,7 +17,8 @@ SurfaceMaps::SurfaceMaps(int width, int height)
       thickness_out_(width, height, 0),
       depth_third_(width, height, kNothing),
       back_(width, height, kNothing),
-      back_out_(width, height, kNothing) {}
+      back_out_(width, height, kNothing),
+      normal_(width, height) {}
 
 template <class F>
 void SurfaceMaps::stage(const char* name, F&& pass) {
@@ -45,7 +46,7 @@ const Map* SurfaceMaps::smoothed(const LayerFilter& filter,
 void SurfaceMaps::find(const PointsView& positions,
                        const Camera& camera,
                        const RenderParams& params,
-                       bool exact,
+                       For purpose,
                        int threads) {
   const FrameBlock frame = frame_block(camera, depth_.width(), depth_.height());
   const SplatView view = splat_view(frame, params);
@@ -54,7 +55,7 @@ void SurfaceMaps::find(const PointsView& positions,
     crowding_.find(positions, camera, params.crowding_distance(), params.radius, threads);
   });
   const Records& particles = crowding_.particles();
-  const Index deep = exact ? 0 : crowding_.deep();
+  const Index deep = purpose == For::picture ? crowding_.deep() : 0;
   const Index shallow = particles.size() - deep;
   const bool stretched = params.anisotropy > 0;
   if (stretched) {
@@ -91,13 +92,18 @@ void SurfaceMaps::find(const PointsView& positions,
           smoothed(filter, iterations, frame, nearest, depth_, depth_between_, depth_out_, threads);
     }
   });
-  stage("back_smooth", [&] {
-    smooth(back_filter(params), frame, tiles(), back_, depth_, depth_between_, back_out_, threads);
-  });
+  if (purpose == For::picture) {
+    stage("back_smooth", [&] {
+      smooth(back_filter(params), frame, tiles(), back_, depth_, depth_between_, back_out_,
+             threads);
+    });
+  }
   stage("thickness_smooth", [&] {
     smooth_thickness_ = smoothed(thickness_filter(params), params.thickness_iterations, frame,
                                  nearest, thickness_, thickness_between_, thickness_out_, threads);
   });
+  stage("normal",
+        [&] { raster::normal(*smooth_depth_, depth_, tiles(), frame, params, normal_, threads); });
 }
 
 }  // namespace pbf::raster

@@ -5,7 +5,7 @@
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/layer_filter.hpp"
 #include "pbf/render/params.hpp"
-#include "pbf/render/raster/map.hpp"
+#include "pbf/render/raster/normal.hpp"
 #include "pbf/render/raster/splats.hpp"
 
 #include <string>
@@ -14,19 +14,19 @@
 
 namespace pbf::raster {
 
-/// The passes from particles to a smooth surface in C++, without OpenGL: what those in glsl/ do,
-/// for drivers that run shaders on the processor and for machines that have no driver.
+/// The passes from particles to a smooth surface with its normals, in C++.
 class SurfaceMaps {
  public:
   SurfaceMaps(int width, int height);
+  /// What the maps are for: a picture needs the far side too, and thickness of what lies deep in a
+  /// body with half as many pixels to a side, which it does not show.
+  enum class For { picture, layers };
   /// @param positions  finite [m]
-  /// @param exact      if not, what lies deep in a body adds to the thickness with half as many
-  ///                   pixels to a side, which no picture shows
   /// @param threads    0: all there are; the maps have the same bits with any
   void find(const PointsView& positions,
             const Camera& camera,
             const RenderParams& params,
-            bool exact,
+            For purpose,
             int threads = 0);
 
   /// Where the maps below can hold fluid.
@@ -34,8 +34,9 @@ class SurfaceMaps {
   [[nodiscard]] const Map& depth() const { return depth_; }          ///< affine, with crowding
   [[nodiscard]] const Map& thickness() const { return thickness_; }  ///< [m]
   [[nodiscard]] const Map& depth_smooth() const { return *smooth_depth_; }  ///< affine
-  [[nodiscard]] const Map& back_smooth() const { return back_out_; }        ///< affine, far side
+  [[nodiscard]] const Map& back_smooth() const { return back_out_; }  ///< affine, of a picture
   [[nodiscard]] const Map& thickness_smooth() const { return *smooth_thickness_; }  ///< [m]
+  [[nodiscard]] const NormalMaps& normal() const { return normal_; }
 
   /// Each pass in order and the time it took [ms].
   [[nodiscard]] const auto& milliseconds() const { return milliseconds_; }
@@ -62,6 +63,7 @@ class SurfaceMaps {
   Map depth_out_, thickness_out_;
   Map depth_third_;  // of curvature flow
   Map back_, back_out_;
+  NormalMaps normal_;
   const Map* smooth_depth_ = &depth_;
   const Map* smooth_thickness_ = &thickness_;
   std::vector<std::pair<std::string, double>> milliseconds_;

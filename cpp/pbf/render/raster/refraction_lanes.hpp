@@ -1,0 +1,170 @@
+#pragma once
+
+#include "pbf/render/raster/tank_lanes.hpp"
+
+// The half of glsl/composite.frag that follows a ray through the fluid.
+namespace pbf::PBF_ISA_NAMESPACE {
+
+PBF_INLINE Lanes fresnel(Lanes c, float index) {
+  const Lanes g = sqrt(max(Lanes(index * index - 1) + c * c, 1e-6F));
+  const Lanes a = (g - c) / (g + c);
+  const Lanes b = (c * (g + c) - Lanes(1)) / (c * (g - c) + Lanes(1));
+  return Lanes(0.5F) * a * a * (Lanes(1) + b * b);
+}
+
+/// A ray of light, followed backwards.
+struct Ray {
+  Vec3Lanes at;         // world space [m]
+  Vec3Lanes direction;  // unit vector
+  Lanes way;            // length in the fluid so far [m]
+};
+
+/// Share of a ray's way that goes through fluid before it leaves it, as far as the picture knows.
+PBF_INLINE Lanes share_in_fluid(const Scene& scene,
+                                const FluidTerms& terms,
+                                const Ray& ray,
+                                Lanes way) {
+  const FrameTerms& frame = scene.frame;
+  Lanes share = 0.0F, inside = 1.0F;
+  float from = 0;
+  for (int k = 1; k <= 3; ++k) {
+    const float to = static_cast<float>(k * k) / 9;
+    const Vec3Lanes at = to_eye(frame, ray.at + (Lanes(0.5F * (from + to)) * way) * ray.direction -
+                                           lanes(scene.environment.eye));
+    const PixelLanes pixel = pixel_of(frame, at);
+    const Ints x = to_ints(clamp(pixel.x, 0.0F, frame.width - 1));
+    const Ints y = to_ints(clamp(pixel.y, 0.0F, frame.height - 1));
+    const Lanes front = fetch(terms.depth, x, y);
+    const Lanes behind = -at.z - depth_of(frame, front);
+    const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
+    const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
+    const Lanes within = Lanes(0.5F) + min(behind, before) * Lanes(1 / terms.radius);
+    inside *= select(is_fluid, clamp(within, 0.0F, 1.0F), 0.0F);
+    share += inside * Lanes(to - from);
+    from = to;
+  }
+  return share;
+}
+
+PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& terms, Ray& ray) {
+  constexpr float kMostWay = 1e3F;
+  const Environment& e = scene.environment;
+  const float index = terms.refractive_index;
+  Mask inside = Lanes(0.0F) <= Lanes(0.0F);
+  for (int k = 0; k < 2 && any(inside); ++k) {
+    const Lanes to_floor = distance_to_ground(e, ray.at, ray.direction);
+    const Wall wall = nearest_wall(e, ray.at, ray.direction);
+    const Lanes way = select(inside, min(min(to_floor, wall.way), kMostWay), 0.0F);
+    ray.way += k == 0 ? way : way * share_in_fluid(scene, terms, ray, way);
+    ray.at += way * ray.direction;
+    const Vec3Lanes bent = refract(ray.direction, -wall.outward, index);
+    const Mask mirrors = dot(bent, bent) < Lanes(0.5F);
+    inside = inside & (wall.way < to_floor);
+    const Vec3Lanes on = select(mirrors, reflect(ray.direction, wall.outward), bent);
+    ray.direction = select(inside, on, ray.direction);
+    inside = inside & mirrors;
+  }
+}
+
+PBF_INLINE Vec3Lanes
+back_at(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes else_at) {
+  x = clamp(x, 0, terms.back.width - 1);
+  y = clamp(y, 0, terms.back.height - 1);
+  const Lanes a = fetch(terms.back, x, y);
+  const Lanes depth = select(is_surface(a), depth_of(scene.frame, a), else_at);
+  return eye_position(scene.frame, to_lanes(x) + Lanes(0.5F), to_lanes(y) + Lanes(0.5F), depth);
+}
+
+PBF_INLINE Vec3Lanes
+back_normal(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes depth) {
+  const Lanes pixels = Lanes(0.7F * terms.radius) * pixels_per_meter(scene.frame, depth);
+  const Ints apart = to_ints(max(min(pixels, 1e6F), 1.0F));
+  const auto within = [&](Ints at, int size) PBF_LAMBDA_INLINE {
+    const Ints most = size - 1 - apart;
+    const Ints high = most > apart ? most : apart;
+    at = at < apart ? apart : at;
+    return at > high ? high : at;
+  };
+  x = within(x, terms.back.width);
+  y = within(y, terms.back.height);
+  Vec3Lanes right =
+      back_at(scene, terms, x + apart, y, depth) - back_at(scene, terms, x - apart, y, depth);
+  Vec3Lanes up =
+      back_at(scene, terms, x, y + apart, depth) - back_at(scene, terms, x, y - apart, depth);
+  const Lanes most = Lanes(2) * right.x;
+  right.z = clamp(right.z, -most, most);
+  up.z = clamp(up.z, -most, most);
+  const Vec3Lanes n = cross(right, up);
+  return normalize(Vec3Lanes{n.x, n.y, n.z + Lanes(1e-12F)});
+}
+
+PBF_INLINE Vec3Lanes out_of(const Vec3Lanes& direction, const Vec3Lanes& n, float index) {
+  const Lanes c = clamp(-dot(direction, n), 0.0F, 1.0F);
+  Vec3Lanes along = Lanes(index) * (direction + c * n);
+  along = (Lanes(0.99F) / max(sqrt(dot(along, along)), 0.99F)) * along;
+  return along - sqrt(max(Lanes(1) - dot(along, along), 0.0F)) * n;
+}
+
+/// The ray from a point of the surface to what is seen through the fluid, and its direction behind
+/// the surface.
+struct Refracted {
+  Ray ray;
+  Vec3Lanes first;
+};
+
+/// @param x, y  the pixels, of which `wanted` count   @param body  0 for a drop, 1 in a body
+PBF_INLINE Refracted refracted(const Scene& scene,
+                               const FluidTerms& terms,
+                               Ints x,
+                               Ints y,
+                               const Vec3Lanes& p,
+                               const Vec3Lanes& view,
+                               const Vec3Lanes& n,
+                               Lanes thickness,
+                               Lanes body,
+                               Mask wanted) {
+  const Environment& e = scene.environment;
+  const FrameTerms& frame = scene.frame;
+  const float index = terms.refractive_index, eta = 1 / index;
+  const Vec3Lanes into = refract(view, n, eta);
+  const Vec3Lanes once = to_world(frame, into);
+  const Vec3Lanes position = lanes(e.eye) + to_world(frame, p);
+  const Lanes to_end =
+      min(distance_to_ground(e, position, once), nearest_wall(e, position, once).way);
+  const Lanes deep = p.z - back_at(scene, terms, x, y, -p.z).z;
+  const Lanes straight = max(deep, 0.0F) / -view.z;
+  Lanes way = straight;
+  for (int k = 0; k < 4; ++k) {
+    const Vec3Lanes guess = p + way * into;
+    const PixelLanes at = pixel_of(frame, guess);
+    x = to_ints(floor(clamp(at.x, -1.0F, frame.width)));
+    y = to_ints(floor(clamp(at.y, -1.0F, frame.height)));
+    const Lanes found = (back_at(scene, terms, x, y, -guess.z).z - p.z) / min(into.z, -0.1F);
+    way = clamp(found, 0.0F, Lanes(3) * straight);
+  }
+  const Lanes gap = to_end - way;
+  const Lanes sticking_out = min(1.2F * terms.radius, Lanes(0.5F) * straight);
+  const Lanes filled = thickness / max(min(straight - sticking_out, to_end), 1e-6F);
+  const Lanes is_bound = (Lanes(1) - smoothstep(0.5F * terms.radius, 3 * terms.radius, gap)) *
+                         select(Lanes(1) <= body, smoothstep(0.35F, 0.75F, filled), 0.0F);
+  const Lanes solid = max(body * smoothstep(0.55F, 0.9F, filled), is_bound);
+  const Vec3Lanes twice = to_world(frame, refract(view, n, eta * eta));
+  Vec3Lanes direction = twice;
+  if (any((solid > Lanes(0.0F)) & (is_bound < Lanes(1)) & wanted)) {
+    const Vec3Lanes far_side = back_normal(scene, terms, x, y, way - p.z);
+    direction = mix(twice, to_world(frame, out_of(into, far_side, index)), solid);
+  }
+  const Lanes length = mix(thickness, way * thickness / max(straight, 1e-6F), solid);
+  Ray ray{position + way * once, direction, length};
+  if (any((is_bound > Lanes(0.0F)) & wanted)) {
+    Ray bound{position, once, 0.0F};
+    follow_to_wall_or_floor(scene, terms, bound);
+    ray.at = mix(ray.at, bound.at, is_bound);
+    ray.direction = mix(ray.direction, bound.direction, is_bound);
+    ray.way = mix(ray.way, bound.way * min(filled, 1.0F), is_bound);
+  }
+  ray.direction = normalize(ray.direction);
+  return {ray, normalize(mix(twice, once, solid))};
+}
+
+}  // namespace pbf::PBF_ISA_NAMESPACE
