@@ -326,7 +326,7 @@ float cut_at_walls(inout vec3 p, vec3 view, float back, float body, inout vec3 n
   // It stands at the far wall as at the floor: up to the glass, without curling away from it.
   vec3 beside = (1.0 - smoothstep(1.0, 3.0, to_far * abs(speed) / u_radius)) * sign(speed);
   vec3 flat_n = to_world(n);
-  flat_n -= beside * max(flat_n * beside, 0.0);
+  flat_n -= beside * max(flat_n * beside, 0.0) + 1e-6 * direction;
   n = normalize(mat3(u_view) * flat_n);
   if (enters > 0.0) {
     p += enters * view;
@@ -343,8 +343,8 @@ void main() {
   float share = is_surface(a) ? clamp(1.8 * coverage(pixel) - 0.55, 0.0, 1.0) : 0.0;
   vec3 p = eye_position(gl_FragCoord.xy, is_surface(a) ? depth_of(a) : 1.0);
   vec3 n = texelFetch(u_normal, pixel, 0).xyz;
-  // What is crowded by two thirds is a body's edge.
-  float body = min(1.5 * crowding_of(texelFetch(u_spheres, pixel, 0).r), 1.0);
+  // What is crowded by two thirds is a body's edge, whatever rounding makes of it.
+  float body = min(1.6 * crowding_of(texelFetch(u_spheres, pixel, 0).r), 1.0);
   share *= cut_at_walls(p, view, (p.z - back_at(pixel, -p.z).z) / -view.z, body, n);
   // The floor hides what sticks out below it.
   if (is_below_floor(u_eye + to_world(p))) share = 0.0;

@@ -68,20 +68,22 @@ struct Ring {
   vec2 gone;          // of distances to where there is nothing, or only what is farther away
 };
 
-// @param farther, nearer  how much less or more affine depth is another surface's
-void add(inout Ring ring, ivec2 pixel, ivec2 offset, float a, float farther, float nearer) {
+// @param down, up  1 / how much less or more affine depth is another surface's
+void add(inout Ring ring, ivec2 pixel, ivec2 offset, float a, float down, float up) {
   ivec2 at = clamp(pixel + offset, ivec2(0), ivec2(u_size.xy) - 1);
   float difference = texelFetch(u_values, at, 0).r - a;
-  float u = difference / (difference > 0.0 ? nearer : farther);
-  float keep = max(1.0 - u * u, 0.0);
+  float u = max(difference * up, -difference * down);
+  float u2 = u * u;
+  float keep = max(1.0 - u2, 0.0);
+  float weight = keep * keep;
   vec2 x = vec2(at - pixel);
-  vec2 weighted = keep * keep * x;
-  ring.count += keep * keep;
-  ring.rise += keep * keep * difference;
+  vec2 weighted = weight * x;
+  ring.count += weight;
+  ring.rise += weight * difference;
   ring.sum += weighted;
   ring.slope += difference * weighted;
   ring.spread += weighted.xxy * x.xyy;
-  ring.gone += difference < 0.0 ? min(u * u * u * u, 1.0) * x : vec2(0.0);
+  ring.gone += difference < 0.0 ? min(u2 * u2, 1.0) * x : vec2(0.0);
 }
 
 // The normal where a body of fluid ends within a sprite's radius. The filter knows one side only
@@ -93,7 +95,7 @@ void add(inout Ring ring, ivec2 pixel, ivec2 offset, float a, float farther, flo
 // @param reach  a sprite's radius [pixels]
 vec3 rim_normal(ivec2 pixel, vec3 p, vec3 n, int reach) {
   float a = texelFetch(u_values, pixel, 0).r;
-  float down = farther(a, u_range), up = nearer(a, u_range);
+  float down = 1.0 / farther(a, u_range), up = 1.0 / nearer(a, u_range);
   Ring ring = Ring(1.0, 0.0, vec2(0.0), vec2(0.0), vec3(0.0), vec2(0.0));
   ivec2 straight = ivec2(reach, 0), diagonal = ivec2((7 * reach + 5) / 10);
   for (int k = 0; k < 4; ++k) {
@@ -117,7 +119,8 @@ vec3 rim_normal(ivec2 pixel, vec3 p, vec3 n, int reach) {
                                eye_position(at + vec2(0.0, 1.0), depth_of(a + rise.y)) - p));
   vec3 view = normalize(ray_direction(at));
   float cosine = clamp(-dot(plane, view), 0.0, 1.0);
-  vec3 across = normalize(plane + cosine * view);
+  vec3 across = plane + cosine * view;
+  across /= max(length(across), 1e-6);  // a plane that faces the viewer tilts nowhere
   float inwards = max(-dot(middle, ring.gone) / gone, 0.0) / float(reach);
   float to_outline = max(1.0 - inwards / MIDDLE_AT_OUTLINE, 0.5 / float(reach));
   cosine *= sqrt(to_outline / (to_outline + inwards));

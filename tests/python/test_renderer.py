@@ -249,6 +249,16 @@ def test_at_the_outline_of_a_ball_of_fluid_normals_are_the_balls(backend):
     assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean() < 11  # 21 by differences
 
 
+def test_a_face_across_the_view_has_normals_up_to_its_edge(backend):
+    face = np.stack(np.meshgrid(*[np.arange(12) * 0.02] * 3), axis=-1).reshape(-1, 3)
+    camera = pbf.Camera(eye=(0.11, 0.11, 3), target=(0.11, 0.11, 0), orthographic=True, height=0.4)
+    params = pbf.RenderParams(radius=0.024, drop_radius=0.0124, particle_volume=0.02**3)
+    with pbf.Renderer(160, 160, backend=backend) as renderer:
+        layers = renderer.layers(face, camera, params)
+    lengths = np.linalg.norm(layers["normal"][layers["depth"] > 0], axis=1)
+    assert lengths == pytest.approx(1, abs=1e-4)
+
+
 def test_without_opengl_there_are_pictures():
     code = """
 import pbfluids as pbf

@@ -108,14 +108,15 @@ PBF_INLINE Vec3Lanes rim_normal(
   const auto& depth = terms.depth;
   const Ints column = lane_numbers() + x, row = Ints{} + y;
   const Lanes a = load_lanes(depth.first + y * depth.pitch + x);
-  const Lanes down = farther(perspective, a, terms.range), up = nearer(perspective, a, terms.range);
+  const Lanes down = Lanes(1) / farther(perspective, a, terms.range);
+  const Lanes up = Lanes(1) / nearer(perspective, a, terms.range);
   Ring ring;
   const auto add = [&](Ints dx, Ints dy) PBF_LAMBDA_INLINE {
     const Ints at_x = clamp(column + dx, 0, depth.width - 1);
     const Ints at_y = clamp(row + dy, 0, depth.height - 1);
     const Lanes difference = fetch(depth, at_x, at_y) - a;
     ring.add(to_lanes(at_x - column), to_lanes(at_y - row), difference,
-             difference / select(difference > Lanes(0.0F), up, down));
+             max(difference * up, -difference * down));
   };
   const Ints beside = (7 * reach + 5) / 10, none{};
   add(reach, none);
@@ -149,7 +150,9 @@ PBF_INLINE Vec3Lanes rim_normal(
   const Vec3Lanes plane = normalize(cross(right, above));
   const Vec3Lanes view = normalize(ray_direction(frame, at_x, at_y));
   Lanes cosine = clamp(-dot(plane, view), 0.0F, 1.0F);
-  const Vec3Lanes across = normalize(plane + cosine * view);
+  const Vec3Lanes tilt = plane + cosine * view;
+  // A plane that faces the viewer tilts nowhere.
+  const Vec3Lanes across = (Lanes(1) / max(sqrt(dot(tilt, tilt)), 1e-6F)) * tilt;
   const Lanes inwards =
       max(-(middle_x * ring.gone_x + middle_y * ring.gone_y) / gone, 0.0F) / radius;
   const Lanes to_outline =

@@ -94,7 +94,7 @@ PBF_INLINE Lanes cut_at_walls(const Scene& scene,
   const Vec3Lanes flat_n =
       world_n - Vec3Lanes{outwards(world_n.x, beside.x), outwards(world_n.y, beside.y),
                           outwards(world_n.z, beside.z)};
-  n = select(cuts, normalize(to_eye(frame, flat_n)), n);
+  n = select(cuts, normalize(to_eye(frame, flat_n - Lanes(1e-6F) * direction)), n);
   const Mask moves = cuts & (enters > Lanes(0.0F));
   if (any(moves)) {
     p += select(moves, enters, 0.0F) * view;
