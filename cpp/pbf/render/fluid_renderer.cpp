@@ -96,6 +96,7 @@ struct FluidRenderer::Passes {
         smooth(in_cpp ? nullptr : std::make_unique<Smooth>(glsl_source)),
         curvature_flow(in_cpp ? nullptr : std::make_unique<CurvatureFlow>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
+  Neighborhoods particles;
   Crowding crowding;
   Anisotropy anisotropy;
   Sprites sprites;
@@ -290,16 +291,16 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
                                     const RenderParams& params) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
-  stage("crowding",
-        [&] { pass.crowding.find(positions, camera, params.crowding_distance(), params.radius); });
-  const Real nearest = nearest_front(pass.crowding.shallow(), params.radius, frame, 0);
-  const Records& particles = pass.crowding.particles();
+  stage("crowding", [&] {
+    pass.particles.find(positions, camera, params.neighbor_distance(), params.radius);
+    if (params.drop_radius) pass.crowding.find(pass.particles);
+  });
+  const Real nearest = nearest_front(pass.particles.shallow(), params.radius, frame, 0);
+  const Records& particles = pass.particles.particles();
   const bool stretched = params.anisotropy > 0;
   if (stretched) {
-    stage("anisotropy", [&] {
-      pass.anisotropy.find(particles, particles.size(), camera.eye, params.shape_distance(),
-                           params.anisotropy);
-    });
+    stage("anisotropy",
+          [&] { pass.anisotropy.find(pass.particles, particles.size(), params.anisotropy); });
   }
   stage("upload", [&] {
     if (stretched) {
@@ -308,7 +309,7 @@ Surface FluidRenderer::draw_in_glsl(const PointsView& positions,
       to.tiles.find(centers, pass.anisotropy.stretches(), frame, params.radius);
     } else {
       pass.sprites.upload(particles);
-      to.tiles.find(pass.crowding.shallow(), frame, params.radius);
+      to.tiles.find(pass.particles.shallow(), frame, params.radius);
     }
   });
   if (pass.thickness == nullptr) {
