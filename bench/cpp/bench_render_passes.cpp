@@ -2,8 +2,8 @@
 /// each, and how much work there was. The same dam break, in the same picture, of few and of many
 /// particles.
 #include "pbf/render/cpu_renderer.hpp"
-#include "pbf/render/crowding.hpp"
 #include "pbf/render/fluid_renderer.hpp"
+#include "pbf/render/neighborhoods.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -52,15 +52,15 @@ RenderParams params(Real spacing) {
 /// Pixels that sprites cover, each of its own; of full size, as most are. In C++ deep ones cover a
 /// quarter as many.
 double fragments(const Cloud& of, const RenderParams& drawn, double pixels_per_slope, bool in_cpp) {
-  Crowding crowding;
-  crowding.find(of.positions, camera(), drawn.crowding_distance(), drawn.radius);
+  Neighborhoods particles;
+  particles.find(of.positions, camera(), drawn.neighbor_distance(), drawn.radius);
   const Eigen::Matrix4f view = camera().view();
   const double r2 = std::pow(static_cast<double>(drawn.radius), 2);
   double sum = 0;
   for (Index i = 0; i < of.positions.cols(); ++i) {
-    const Record& p = crowding.particles()[i];
+    const Record& p = particles.particles()[i];
     const double z = -(view.row(2).head<3>().dot(Vec3(p.x, p.y, p.z)) + view(2, 3));
-    const double share = in_cpp && i >= crowding.shallow().cols() ? 0.25 : 1;
+    const double share = in_cpp && i >= particles.shallow().cols() ? 0.25 : 1;
     sum += share * std::numbers::pi * r2 * pixels_per_slope * pixels_per_slope / (z * z - r2);
   }
   return sum;

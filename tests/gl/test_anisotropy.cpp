@@ -5,25 +5,38 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
-#include "gl_fixture.hpp"
+#include "clouds.hpp"
 #include <cstdlib>
 #include <random>
 
 using namespace pbf;
+using test::lattice;
 
 namespace {
 
-const Vec3 kOrigin = Vec3::Zero();
 constexpr Real kDistance = 2.4F;  // of the particles that count, in particle distances
+
+Anisotropy found_around(const Points& x, Real anisotropy, const Vec3& eye, int threads = 0) {
+  Camera camera;
+  camera.eye = eye;
+  camera.target = eye - Vec3::UnitZ();
+  Neighborhoods particles;
+  particles.find(x, camera, kDistance, 0, threads);  // small sprites hide nothing
+  for (Index i = 0; i < x.cols(); ++i) particles.particles()[i].w = 0.5F;
+  Anisotropy found;
+  found.find(particles, x.cols(), anisotropy, threads);
+  return found;
+}
 
 struct Ellipsoid {
   Vec3 center;
   Eigen::Matrix3f stretch;
 };
 
-std::vector<Ellipsoid> ellipsoids(const Points& x, Real anisotropy = 1, const Vec3& eye = kOrigin) {
-  Anisotropy found;
-  found.find(test::particles(x, 0.5F), x.cols(), eye, kDistance, anisotropy);
+std::vector<Ellipsoid> ellipsoids(const Points& x,
+                                  Real anisotropy = 1,
+                                  const Vec3& eye = Vec3::Zero()) {
+  const Anisotropy found = found_around(x, anisotropy, eye);
   std::vector<Ellipsoid> result;
   for (Index i = 0; i < x.cols(); ++i) {
     const Record& c = found.centers()[i];
@@ -35,13 +48,6 @@ std::vector<Ellipsoid> ellipsoids(const Points& x, Real anisotropy = 1, const Ve
     result.push_back({{c.x, c.y, c.z}, G});
   }
   return result;
-}
-
-Points lattice(int nx, int ny, int nz) {
-  Points x(3, nx * ny * nz);
-  for (Index i = 0; i < x.cols(); ++i)
-    x.col(i) = Eigen::Vector3<Index>(i % nx, i / nx % ny, i / (nx * ny)).cast<Real>();
-  return x;
 }
 
 Eigen::Matrix3f turn() {
@@ -147,8 +153,7 @@ TEST_CASE("anisotropy: the same bits for any number of threads and every instruc
   Points x(3, 12000);
   for (Real& number : x.reshaped()) number = anywhere(random);
   const auto found = [&](int threads) {
-    Anisotropy anisotropy;
-    anisotropy.find(test::particles(x), x.cols(), kOrigin, kDistance, 1, threads);
+    const Anisotropy anisotropy = found_around(x, 1, Vec3::Zero(), threads);
     std::vector<Real> numbers;
     const auto add = [&](const Record& r) { numbers.insert(numbers.end(), {r.x, r.y, r.z}); };
     for (Index i = 0; i < x.cols(); ++i) add(anisotropy.centers()[i]);

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "clouds.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <set>
 
 using namespace pbf;
+using test::lattice;
 
 namespace {
 
@@ -30,8 +32,9 @@ struct Found {
 
 /// With sprites of half of s: those of a body hide what is deep in it.
 Found find(const Points& positions, Real s, const Camera& camera = camera_at(Vec3::Zero())) {
-  Crowding result;
+  Neighborhoods result;
   result.find(positions, camera, s, 0.5F * s);
+  Crowding().find(result);
   const Index n = positions.cols();
   Found found{Points(3, n), Scalars(n), result.deep()};
   for (Index i = 0; i < n; ++i) {
@@ -99,13 +102,6 @@ Scalars brute_force(const Points& x, Real s) {
   return c;
 }
 
-Points lattice(int nx, int ny, int nz) {
-  Points x(3, nx * ny * nz);
-  for (Index i = 0; i < x.cols(); ++i)
-    x.col(i) = Eigen::Vector3<Index>(i % nx, i / nx % ny, i / (nx * ny)).cast<Real>();
-  return x;
-}
-
 }  // namespace
 
 TEST_CASE("crowding: the formula, for a cloud of drops, groups and bodies") {
@@ -143,9 +139,9 @@ TEST_CASE("crowding: of a body that shakes, a million of which would be too many
 TEST_CASE("crowding: nothing is hidden from within, by the near plane, or by small sprites") {
   const Points x = lattice(20, 20, 20);
   const auto deep = [&](const Camera& camera, Real radius = 1.2F) {
-    Crowding crowding;
-    crowding.find(x, camera, 2.4F, radius);
-    return crowding.deep();
+    Neighborhoods particles;
+    particles.find(x, camera, 2.4F, radius);
+    return particles.deep();
   };
   Camera camera = camera_at({10, 10, 40});
   const Index from_outside = deep(camera);
@@ -169,7 +165,7 @@ TEST_CASE("crowding: a body is one for sprites of 0.8 to 1.5 particle distances"
     params.radius = spacings * 0.02F;
     params.drop_radius = 0.0124F;
     params.particle_volume = 8e-6F;
-    const Found found = find(x, params.crowding_distance());
+    const Found found = find(x, params.neighbor_distance());
     for (Index i = 0; i < x.cols(); ++i) {
       const auto inner = (found.x.col(i).array() - 0.08F).abs() < 0.05F;
       if (inner.all()) CHECK(found.c[i] == 1);
@@ -208,10 +204,11 @@ TEST_CASE("crowding: the same bits for any number of threads and every instructi
     x.col(i) = side * Vec3(anywhere(random), anywhere(random), anywhere(random));
   }
   const auto found = [&](int threads) {
-    Crowding crowding;
-    crowding.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, threads);
+    Neighborhoods particles;
+    particles.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, threads);
+    Crowding().find(particles, threads);
     std::vector<Real> c;
-    for (Index i = 0; i < x.cols(); ++i) c.push_back(crowding.particles()[i].w);
+    for (Index i = 0; i < x.cols(); ++i) c.push_back(particles.particles()[i].w);
     return c;
   };
   const std::vector<Real> expected = found(1);

@@ -2,6 +2,7 @@
 
 #include "pbf/core/parallel.hpp"
 #include "pbf/render/anisotropy_kernels.hpp"
+#include "pbf/render/candidates.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -32,22 +33,20 @@ Real number(double a) { return static_cast<Real>(a); }
 
 }  // namespace
 
-void Anisotropy::find(
-    const Records& particles, Index count, const Vec3& eye, Real s, Real anisotropy, int threads) {
-  const Index n = particles.size();
-  centers_.resize(n);
-  stretches_.resize(2 * n);
-  parallel_for(n, threads, [&](Index i) {
-    centers_[i] = particles[i];
+void Anisotropy::find(const Neighborhoods& particles, Index count, Real anisotropy, int threads) {
+  centers_.resize(count);
+  stretches_.resize(2 * count);
+  parallel_for(count, threads, [&](Index i) {
+    centers_[i] = particles.particles()[i];
     stretches_[2 * i] = {1, 1, 1, 0};
     stretches_[2 * i + 1] = {0, 0, 0, 0};
   });
-  neighborhoods_.find(particles, eye, s, threads);
   const AnisotropyKernels& kernels = anisotropy_kernels(chosen_isa());
-  const Real inverse_s = 1 / s;
-  neighborhoods_.for_each(
-      count, threads, [&](Index i, const Record& x, const Candidates& candidates) {
-        const Moments sum = kernels.moments(candidates, x, inverse_s);
+  const Real s = particles.distance();
+  for_each_with_candidates(
+      particles, threads, [](std::uint32_t) { return true; },
+      [&](std::uint32_t k, const Candidates& candidates, CandidateRoom&) {
+        const Moments sum = kernels.moments(candidates, particles.sorted()[k], 1 / s);
         const double a = anisotropy * std::min(1.0, (sum.w - 1) / kFewest);
         if (!(a > 0)) return;
         const Vector3d m = Vector3d(sum.x, sum.y, sum.z) / sum.w;
@@ -55,6 +54,7 @@ void Anisotropy::find(
         C << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
         C = C / sum.w - m * m.transpose();
         const Vector3d shift = kCenterShare * a * s * m;
+        const Index i = particles.place(k);
         Record& center = centers_[i];
         center.x += number(shift.x());
         center.y += number(shift.y());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "pbf/core/records.hpp"
 #include "pbf/render/neighborhoods.hpp"
 
 namespace pbf {
@@ -24,31 +23,23 @@ class Anisotropy {
  public:
   /// Of semi-axes, at most: k_r of the paper.
   static constexpr double kMostRatio = 4;
-  /// Sum of weights of a group that is fully stretched: a sheet has 16, a row of particles 3.5, a
-  /// body 55, at s = 3 particle distances.
-  static constexpr double kFewest = 8;
+  /// Sum of weights of a group that is fully stretched: a sheet has 10, a row of particles 2.7, a
+  /// body 27, at s = 2.4 particle distances.
+  static constexpr double kFewest = 6;
   /// Lambda of the paper, which has 0.9: that takes a whole layer of particles off the surface, for
   /// normals that the depth filter makes nearly as good (docs/smoothing.md).
   static constexpr double kCenterShare = 0.3;
 
-  /// @param particles   position [m] and crowding, which the centers keep
-  /// @param count       shapes are found of so many, the others stay spheres
-  /// @param eye         particles that are more than 2^19 s from here stay spheres
-  /// @param s           > 0 [m]
+  /// @param particles   with crowding, which the centers keep; s is their distance
+  /// @param count       of the first of them, which are wanted
   /// @param anisotropy  0 to 1
-  void find(const Records& particles,
-            Index count,
-            const Vec3& eye,
-            Real s,
-            Real anisotropy,
-            int threads = 0);
+  void find(const Neighborhoods& particles, Index count, Real anisotropy, int threads = 0);
 
   [[nodiscard]] const Records& centers() const { return centers_; }
   /// Two records for each: G_xx, G_yy, G_zz and G_xy, G_xz, G_yz. The fourth numbers mean nothing.
   [[nodiscard]] const Records& stretches() const { return stretches_; }
 
  private:
-  Neighborhoods neighborhoods_;
   Records centers_, stretches_;
 };
 

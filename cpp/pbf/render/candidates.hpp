@@ -1,8 +1,9 @@
 #pragma once
 
 #include "pbf/core/isa.hpp"
-#include "pbf/neighbors/cell_grid.hpp"
+#include "pbf/core/parallel.hpp"
 #include "pbf/neighbors/scan.hpp"
+#include "pbf/render/neighborhoods.hpp"
 
 #include <vector>
 
@@ -28,31 +29,29 @@ class CandidateRoom {
   std::vector<std::uint32_t> entries_;
 };
 
-/// Calls f(k, candidates) for the particles k in [first, last) that wanted(k) picks, with all that
-/// are in their cell or the 26 around it.
-/// @param sorted  positions in the order of the grid
+/// Calls f(k, candidates, room) for the sorted particles k that wanted(k) picks. Candidates are all
+/// that are within the distance of k, itself among them, and others that are farther away.
 template <class Wanted, class F>
-void for_each_with_candidates(const CellGrid& grid,
-                              const Records& sorted,
-                              Index first,
-                              Index last,
-                              CandidateRoom& room,
-                              Wanted&& wanted,
-                              F&& f) {
+void for_each_with_candidates(const Neighborhoods& particles, int threads, Wanted&& wanted, F&& f) {
   const Scan& loops = scan(chosen_isa());
-  grid.for_each_cell(
-      first, last, [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
-        Candidates candidates{};
-        for (std::uint32_t k = begin; k < end; ++k) {
-          if (!wanted(k)) continue;
-          if (candidates.count == 0) {
-            candidates = room.candidates(ranges);
-            candidates.count =
-                loops.collect(sorted.data(), ranges.data(), ranges.size(), candidates);
-          }
-          f(k, candidates);
+  const Record* sorted = particles.sorted().data();
+  parallel_chunks(particles.sorted().size(), threads, 4 * kChunk, [&](Index first, Index last) {
+    while (first < last && !wanted(static_cast<std::uint32_t>(first))) ++first;
+    while (first < last && !wanted(static_cast<std::uint32_t>(last - 1))) --last;
+    thread_local CandidateRoom room;
+    const auto cell = [&](std::uint32_t begin, std::uint32_t end, CellGrid::Ranges ranges) {
+      Candidates candidates{};
+      for (std::uint32_t k = begin; k < end; ++k) {
+        if (!wanted(k)) continue;
+        if (candidates.count == 0) {
+          candidates = room.candidates(ranges);
+          candidates.count = loops.collect(sorted, ranges.data(), ranges.size(), candidates);
         }
-      });
+        f(k, candidates, room);
+      }
+    };
+    particles.grid().for_each_cell(first, last, cell);
+  });
 }
 
 }  // namespace pbf

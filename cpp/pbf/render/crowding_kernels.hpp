@@ -17,17 +17,14 @@ struct CrowdingKernels {
   float (*sum)(const Candidates& candidates, const Record& x, float inverse_s2, float* u);
   /// Sets flags[j] where u_j is so large that j is as crowded as a particle with m = 9.
   void (*mark)(const Candidates& candidates, const float* u, std::uint8_t* flags);
-  /// Sets flags[j] where u_j > 0 and particles[j].w < 0.
+  /// Sets flags[j] where u_j > 0 and m[j] < 0.
   void (*mark_unknown)(const Candidates& candidates,
                        const Record& x,
                        float inverse_s2,
-                       const Record* particles,
+                       const float* m,
                        std::uint8_t* flags);
-  /// max_j min(1, 3/2 u_j) particles[j].w, with the particle itself.
-  float (*largest)(const Candidates& candidates,
-                   const Record& x,
-                   float inverse_s2,
-                   const Record* particles);
+  /// max_j min(1, 3/2 u_j) m[j], with the particle itself.
+  float (*largest)(const Candidates& candidates, const Record& x, float inverse_s2, const float* m);
 };
 
 /// m_i of a particle in a body of fluid.

@@ -74,7 +74,7 @@ void mark(const Candidates& candidates, const float* u, std::uint8_t* flags) {
 void mark_unknown(const Candidates& candidates,
                   const Record& particle,
                   float inverse_s2,
-                  const Record* particles,
+                  const float* m,
                   std::uint8_t* flags) {
   const Candidates j = candidates;
   const Vec3Lanes x{particle.x, particle.y, particle.z};
@@ -82,7 +82,7 @@ void mark_unknown(const Candidates& candidates,
     for_each_lane(u_of(j, k, x, inverse_s2) > Lanes(0.0F),
                   [&](std::uint32_t lane) PBF_LAMBDA_INLINE {
                     const std::uint32_t at = j.entry[k + lane] / 4;
-                    if (particles[at].w < 0) set(flags + at);
+                    if (m[at] < 0) set(flags + at);
                   });
   }
 }
@@ -90,7 +90,7 @@ void mark_unknown(const Candidates& candidates,
 float largest(const Candidates& candidates,
               const Record& particle,
               float inverse_s2,
-              const Record* particles) {
+              const float* m) {
   const Candidates j = candidates;
   const Vec3Lanes x{particle.x, particle.y, particle.z};
   float most = 0;
@@ -98,7 +98,7 @@ float largest(const Candidates& candidates,
     const Lanes u = u_of(j, k, x, inverse_s2);
     const Lanes share = min(1.5F * u, 1.0F);
     for_each_lane(u > Lanes(0.0F), [&](std::uint32_t lane) PBF_LAMBDA_INLINE {
-      const float crowded = share.v[lane] * particles[j.entry[k + lane] / 4].w;
+      const float crowded = share.v[lane] * m[j.entry[k + lane] / 4];
       most = most < crowded ? crowded : most;
     });
   }

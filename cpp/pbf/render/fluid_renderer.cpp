@@ -56,6 +56,7 @@ struct FluidRenderer::Passes {
         thickness(one_pass ? nullptr : std::make_unique<Thickness>(glsl_source)),
         back_depth(one_pass ? nullptr : std::make_unique<BackDepth>(glsl_source)) {}
   Buffer frame{GL_UNIFORM_BUFFER};
+  Neighborhoods particles;
   Crowding crowding;
   Anisotropy anisotropy;
   Sprites sprites;
@@ -221,16 +222,16 @@ Surface FluidRenderer::draw_fluid(const PointsView& positions,
                                   bool with_back) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
-  stage("crowding",
-        [&] { pass.crowding.find(positions, camera, params.crowding_distance(), params.radius); });
-  const Real nearest = nearest_front(pass.crowding.shallow(), params.radius, frame, 0);
-  const Records& particles = pass.crowding.particles();
+  stage("crowding", [&] {
+    pass.particles.find(positions, camera, params.neighbor_distance(), params.radius);
+    if (params.drop_radius) pass.crowding.find(pass.particles);
+  });
+  const Real nearest = nearest_front(pass.particles.shallow(), params.radius, frame, 0);
+  const Records& particles = pass.particles.particles();
   const bool stretched = params.anisotropy > 0;
   if (stretched) {
-    stage("anisotropy", [&] {
-      pass.anisotropy.find(particles, particles.size(), camera.eye, params.shape_distance(),
-                           params.anisotropy);
-    });
+    stage("anisotropy",
+          [&] { pass.anisotropy.find(pass.particles, particles.size(), params.anisotropy); });
   }
   stage("upload", [&] {
     if (stretched) {
@@ -239,7 +240,7 @@ Surface FluidRenderer::draw_fluid(const PointsView& positions,
       to.tiles.find(centers, pass.anisotropy.stretches(), frame, params.radius);
     } else {
       pass.sprites.upload(particles);
-      to.tiles.find(pass.crowding.shallow(), frame, params.radius);
+      to.tiles.find(pass.particles.shallow(), frame, params.radius);
     }
   });
   if (pass.thickness == nullptr) {

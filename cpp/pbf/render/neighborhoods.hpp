@@ -1,30 +1,62 @@
 #pragma once
 
-#include "pbf/core/types.hpp"
+#include "pbf/core/records.hpp"
 #include "pbf/neighbors/cell_grid.hpp"
+#include "pbf/render/camera.hpp"
+#include "pbf/render/full_cells.hpp"
 
-#include <functional>
 #include <vector>
 
 namespace pbf {
 
-/// What is around each particle: for passes that look at all within a distance s [m].
+/// Who is around whom, for the passes that look at what is within a distance s of a particle. Those
+/// that are deep in a body by cells of side 0.6 s (full_cells.hpp), most of a million, are set apart
+/// from the others, the *shallow* ones, and only these are sorted: no deep one is within 1.2 s of a
+/// particle that can be seen.
 class Neighborhoods {
  public:
-  /// Sorts particles into cells of side s > 0. Those that are more than 2^19 s from the eye are
-  /// left out: nobody sees them.
-  void find(const Records& particles, const Vec3& eye, Real s, int threads);
+  /// @param positions  finite [m]
+  /// @param camera     particles that are more than 2^19 s from it are not sorted: nobody sees them
+  /// @param s          0: nobody is sorted, and nobody deep
+  /// @param radius     of a body's sprites [m]: only large ones hide what is behind them
+  void find(
+      const PointsView& positions, const Camera& camera, Real s, Real radius, int threads = 0);
 
-  /// The particle's number, its position seen from the eye, and the particles within s of it,
-  /// itself among them, with others that are farther away.
-  using Visit = std::function<void(Index i, const Record& x, const Candidates& candidates)>;
-  /// For the first `count` particles.
-  void for_each(Index count, int threads, const Visit& visit) const;
+  [[nodiscard]] Real distance() const { return s_; }
+  /// Positions in the order given, but deep ones last. The fourth number is 1, for passes to set.
+  [[nodiscard]] Records& particles() { return particles_; }
+  [[nodiscard]] const Records& particles() const { return particles_; }
+  /// How many of them are so deep in a body, and behind the near plane, that others hide them.
+  [[nodiscard]] Index deep() const { return deep_; }
+  /// Positions of the others.
+  [[nodiscard]] auto shallow() const {
+    using Strided = Eigen::Map<const Points, Eigen::Unaligned, Eigen::OuterStride<>>;
+    return Strided(&particles_.data()->x, 3, particles_.size() - deep_, Eigen::OuterStride<>(4));
+  }
+
+  /// Shallow particles by cell, seen from the eye; their fourth number means nothing.
+  [[nodiscard]] const Records& sorted() const { return sorted_; }
+  /// Of each of these, 1 in a full cell and else 0.
+  [[nodiscard]] const std::vector<std::uint8_t>& full() const { return full_; }
+  /// Where the k-th of these is in particles().
+  [[nodiscard]] Index place(std::uint32_t k) const { return ids_[grid_.order()[k]]; }
+
+  [[nodiscard]] const CellGrid& grid() const { return grid_; }
 
  private:
+  void part(const PointsView& positions, const Camera& camera, Real radius, int threads);
+  void sort(int threads);
+
+  Real s_ = 0;
+  FullCells cells_;
   CellGrid grid_;
-  std::vector<std::uint32_t> ids_;  ///< of those not too far
-  Records sorted_;                  ///< their positions seen from the eye, by cell
+  std::vector<FullCells::Place> places_;  ///< in the order given
+  Records particles_;                     ///< all
+  Records near_;                          ///< to sort: seen from the eye, and 1 in a full cell
+  Index deep_ = 0;
+  std::vector<std::uint32_t> ids_;  ///< of near_: places in particles_
+  Records sorted_;                  ///< near_ in the order of the grid
+  std::vector<std::uint8_t> full_;
 };
 
 }  // namespace pbf

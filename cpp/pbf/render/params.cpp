@@ -10,8 +10,8 @@ Real RenderParams::volume_in_force() const {
   return particle_volume.value_or(sphere);
 }
 
-Real RenderParams::crowding_distance() const {
-  if (!drop_radius) return 0;
+Real RenderParams::neighbor_distance() const {
+  if (!drop_radius && anisotropy == 0) return 0;
   return 2.4F * (particle_volume ? std::cbrt(*particle_volume) : radius);
 }
 

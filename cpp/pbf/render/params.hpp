@@ -89,10 +89,9 @@ struct RenderParams {
 
   // What the optional fields stand for when not given.
   [[nodiscard]] Real drop_radius_in_force() const { return drop_radius.value_or(radius); }
-  /// How far drops and bodies are told apart by, 2.4 particle distances [m]; 0: drawn alike.
-  [[nodiscard]] Real crowding_distance() const;
-  /// How far from a particle others have a say in its sprite's shape [m].
-  [[nodiscard]] Real shape_distance() const { return 2.5F * radius; }
+  /// How far from a particle others have a say in its sprite's size and shape: 2.4 particle
+  /// distances [m], or 0 if all sprites are alike.
+  [[nodiscard]] Real neighbor_distance() const;
   [[nodiscard]] Real volume_in_force() const;  ///< [m³]
   [[nodiscard]] Real sphere_radius_in_force() const { return sphere_radius.value_or(radius / 2); }
   [[nodiscard]] Vec3 tint_absorption() const {

@@ -161,7 +161,7 @@ PBF_INLINE void draw_fluid(
   const View view = view_of(frame, x, y);
   Vec3Lanes p = eye_position(frame, view.x, view.y, select(exists, depth_of(frame, a), 1.0F));
   Vec3Lanes n = load_at(terms.normal, x, y);
-  // What is crowded by two thirds is a body's edge.
+  // What is crowded by two thirds is a body's edge, whatever rounding makes of it.
   const Lanes body = min(Lanes(1.6F) * crowding_of(load_at(terms.spheres, x, y)), 1.0F);
   const Lanes far_side = load_at(terms.back, x, y);
   const Lanes deep = select(is_surface(far_side), depth_of(frame, far_side) + p.z, 0.0F);

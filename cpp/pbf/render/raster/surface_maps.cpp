@@ -52,17 +52,15 @@ void SurfaceMaps::find(const PointsView& positions,
   const SplatView view = splat_view(frame, params);
   milliseconds_.clear();
   stage("crowding", [&] {
-    crowding_.find(positions, camera, params.crowding_distance(), params.radius, threads);
+    particles_.find(positions, camera, params.neighbor_distance(), params.radius, threads);
+    if (params.drop_radius) crowding_.find(particles_, threads);
   });
-  const Records& particles = crowding_.particles();
-  const Index deep = purpose == For::picture ? crowding_.deep() : 0;
+  const Records& particles = particles_.particles();
+  const Index deep = purpose == For::picture ? particles_.deep() : 0;
   const Index shallow = particles.size() - deep;
   const bool stretched = params.anisotropy > 0;
   if (stretched) {
-    stage("anisotropy", [&] {
-      anisotropy_.find(particles, shallow, camera.eye, params.shape_distance(), params.anisotropy,
-                       threads);
-    });
+    stage("anisotropy", [&] { anisotropy_.find(particles_, shallow, params.anisotropy, threads); });
   }
   stage("sphere_depth", [&] {
     if (stretched) {
@@ -79,7 +77,7 @@ void SurfaceMaps::find(const PointsView& positions,
     deep_splats_.draw(coarse, nullptr, deep_thickness_, nullptr, threads);
     add_halved(deep_thickness_, tiles(), thickness_, threads);
   });
-  const Real nearest = nearest_front(crowding_.shallow(), params.radius, frame, threads);
+  const Real nearest = nearest_front(particles_.shallow(), params.radius, frame, threads);
   stage("depth_smooth", [&] {
     const LayerFilter filter = depth_filter(params);
     const int iterations = params.smoothing_iterations;

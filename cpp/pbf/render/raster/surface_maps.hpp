@@ -54,6 +54,7 @@ class SurfaceMaps {
                       Map& out,
                       int threads);
 
+  Neighborhoods particles_;
   Crowding crowding_;
   Anisotropy anisotropy_;
   Splats splats_, deep_splats_;
