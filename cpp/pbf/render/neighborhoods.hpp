@@ -10,9 +10,9 @@
 namespace pbf {
 
 /// Who is around whom, for the passes that look at what is within a distance s of a particle. Those
-/// that are deep in a body by cells of side 0.6 s (full_cells.hpp), most of a million, are set apart
-/// from the others, the *shallow* ones, and only these are sorted: no deep one is within 1.2 s of a
-/// particle that can be seen.
+/// that are deep in a body by cells of side 0.6 s (full_cells.hpp), most of a million, are set
+/// apart from the others, the *shallow* ones, and only these are sorted: no deep one is within
+/// 1.2 s of a particle that can be seen.
 class Neighborhoods {
  public:
   /// @param positions  finite [m]
