@@ -148,7 +148,7 @@ def measure_second(case: DamBreak, turns: int, skipped: dict[str, str]) -> list[
     """Let the solvers take turns until each has simulated a second; return a record of each."""
     solvers = children(SECOND, case, skipped)
     keys = ("ms", "steps", "mean_compression", "max_compression", "mean_by_ruler", "max_by_ruler")
-    records = [{"system": s.name, **{key: [] for key in keys}} for s in solvers]
+    records = [{"system": s.name, "commit": commit(), **{key: [] for key in keys}} for s in solvers]
     for _ in range(turns):
         for solver, record in zip(solvers, records, strict=True):
             block = solver.run(1 / turns)
@@ -262,9 +262,10 @@ def tables(found: dict[str, Any]) -> str:
             "|---|---:|",
             *search_rows(found["runs"], case["threads"]),
             "",
-            f"A simulated second, in turns of 1/{plan['turns']} s, each solver with the time steps "
-            "and the tolerance it comes with; compression by the kernel that it finds densities "
-            "with, and both by poly6:",
+            f"A simulated second, in turns of 1/{plan['turns']} s, commit "
+            f"{found['second'][0]['commit']}, each solver with the time steps and the tolerance it "
+            "comes with; compression by the kernel that it finds densities with, and both by "
+            "poly6:",
             "",
             "| solver | s | times ours | steps | mean compression | worst particle | by poly6 |",
             "|---|---:|---:|---:|---:|---:|---:|",
