@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "drawn_splats.hpp"
 #include "gl_fixture.hpp"
 #include <cmath>
 
@@ -13,10 +14,6 @@ using namespace pbf::test;
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
-
-struct Drawn {
-  std::vector<float> depth, thickness, back;
-};
 
 struct Cloud {
   Records centers, stretches;
@@ -41,7 +38,7 @@ Eigen::Matrix3d stretch(const Cloud& cloud) {
   return G;
 }
 
-Drawn by_shaders(const GlFixture& gl, const Cloud& cloud, const RenderParams& params) {
+DrawnSplats by_shaders(const GlFixture& gl, const Cloud& cloud, const RenderParams& params) {
   Sprites sprites;
   sprites.upload(cloud.centers, cloud.stretches);
   const Texture depth(kWidth, kHeight, Format::r32f), thickness(kWidth, kHeight, Format::r32f);
@@ -51,20 +48,8 @@ Drawn by_shaders(const GlFixture& gl, const Cloud& cloud, const RenderParams& pa
   return {gl.read(depth), gl.read(thickness), gl.read(back)};
 }
 
-Drawn in_cpp(const GlFixture& gl, const Cloud& cloud, const RenderParams& params) {
-  const raster::SplatView view = raster::splat_view(gl.frame(), params);
-  raster::Splats splats;
-  raster::Map depth(kWidth, kHeight, kNothing), thickness(kWidth, kHeight, 0);
-  raster::Map back(kWidth, kHeight, kNothing);
-  splats.bin(cloud.centers.data(), 1, view, 2, cloud.stretches.data());
-  splats.draw(view, &depth, thickness, &back, 2);
-  Drawn result;
-  for (int y = 0; y < kHeight; ++y) {
-    result.depth.insert(result.depth.end(), depth.row(y), depth.row(y) + kWidth);
-    result.thickness.insert(result.thickness.end(), thickness.row(y), thickness.row(y) + kWidth);
-    result.back.insert(result.back.end(), back.row(y), back.row(y) + kWidth);
-  }
-  return result;
+DrawnSplats in_cpp(const GlFixture& gl, const Cloud& cloud, const RenderParams& params) {
+  return draw_splats(cloud.centers, cloud.stretches.data(), gl.frame(), kWidth, kHeight, params, 2);
 }
 
 /// At every pixel, by the quadratic of the ray o + t v and the surface |G^-1 (x - c)| = r.
@@ -72,7 +57,7 @@ void check(const GlFixture& gl,
            const Camera& camera,
            const Cloud& cloud,
            Real radius,
-           const Drawn& drawn) {
+           const DrawnSplats& drawn) {
   const Eigen::Matrix4d view = camera.view().cast<double>();
   const Eigen::Matrix3d turn = view.topLeftCorner<3, 3>();
   const Record& at = cloud.centers[0];

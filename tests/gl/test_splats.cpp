@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "drawn_splats.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,15 +13,11 @@
 
 using namespace pbf;
 using namespace pbf::raster;
+using namespace pbf::test;
 
 namespace {
 
 constexpr int kWidth = 200, kHeight = 150;
-
-struct Drawn {
-  std::vector<float> depth, thickness, back;
-  bool operator==(const Drawn&) const = default;
-};
 
 Camera ahead() {
   Camera camera;
@@ -29,20 +26,9 @@ Camera ahead() {
   return camera;
 }
 
-Drawn draw(const Records& particles, const RenderParams& params, int threads) {
-  const SplatView view = splat_view(frame_block(ahead(), kWidth, kHeight), params);
-  Splats splats;
-  Map depth(kWidth, kHeight, kNothing), thickness(kWidth, kHeight, 0);
-  Map back(kWidth, kHeight, kNothing);
-  splats.bin(particles.data(), particles.size(), view, threads);
-  splats.draw(view, &depth, thickness, &back, threads);
-  Drawn result;
-  for (int y = 0; y < kHeight; ++y) {
-    result.depth.insert(result.depth.end(), depth.row(y), depth.row(y) + kWidth);
-    result.thickness.insert(result.thickness.end(), thickness.row(y), thickness.row(y) + kWidth);
-    result.back.insert(result.back.end(), back.row(y), back.row(y) + kWidth);
-  }
-  return result;
+DrawnSplats draw(const Records& particles, const RenderParams& params, int threads) {
+  const FrameBlock frame = frame_block(ahead(), kWidth, kHeight);
+  return draw_splats(particles, nullptr, frame, kWidth, kHeight, params, threads);
 }
 
 Records cloud(Index n) {
@@ -63,7 +49,7 @@ TEST_CASE("splats: the same bits for any number of threads") {
   params.radius = 0.06F;
   params.drop_radius = 0.03F;
   const Records particles = cloud(40000);
-  const Drawn expected = draw(particles, params, 1);
+  const DrawnSplats expected = draw(particles, params, 1);
   CHECK(std::ranges::count(expected.depth, kNothing) < kWidth * kHeight / 2);
   for (const int threads : {2, 3, 7}) CHECK(draw(particles, params, threads) == expected);
 }
@@ -72,7 +58,7 @@ TEST_CASE("splats: every instruction set draws the same bits") {
   RenderParams params;
   params.radius = 0.06F;
   const Records particles = cloud(3000);
-  const Drawn expected = draw(particles, params, 2);
+  const DrawnSplats expected = draw(particles, params, 2);
   for (const Isa isa : usable_isas()) {
     setenv("PBF_ISA", isa_name(isa), 1);
     CAPTURE(isa_name(isa));
@@ -118,8 +104,8 @@ TEST_CASE("splats: sprites of many tiles count as small ones do") {
   Records large(1), small(1), both(2);
   both[0] = large[0] = {0.1F, 0, -2, 1};
   both[1] = small[0] = {-0.3F, 0.2F, -1, 0};
-  const Drawn one = draw(large, params, 1), other = draw(small, params, 1);
-  const Drawn together = draw(both, params, 1);
+  const DrawnSplats one = draw(large, params, 1), other = draw(small, params, 1);
+  const DrawnSplats together = draw(both, params, 1);
   for (std::size_t k = 0; k < one.depth.size(); ++k) {
     CHECK(together.depth[k] == std::max(one.depth[k], other.depth[k]));
     CHECK(together.thickness[k] == one.thickness[k] + other.thickness[k]);

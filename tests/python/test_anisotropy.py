@@ -50,7 +50,7 @@ def test_depth_and_thickness_are_those_of_the_reference(any_renderer, lens, anis
     across = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
     axis = np.zeros_like(across) - (0, 0, 1)
     origins, directions = (across, axis) if camera.orthographic else (0 * across, across + axis)
-    ellipsoids = ref.ellipsoids(cloud().astype(float), 2.5 * RADIUS, anisotropy)
+    ellipsoids = ref.ellipsoids(cloud().astype(float), 2.4 * RADIUS, anisotropy)
     depth, length, margin = ref.first_hits(origins, directions, *ellipsoids, RADIUS)
 
     clear = (margin > 0.002).reshape(height, width)  # no ray that nearly touches an ellipsoid

@@ -11,7 +11,7 @@ import numpy as np
 from reference.params import Array
 
 MOST_RATIO = 4.0  # of semi-axes
-FEWEST = 8.0  # sum of weights from which a group is fully stretched
+FEWEST = 6.0  # sum of weights from which a group is fully stretched
 CENTER_SHARE = 0.3  # of the way to the neighbors' mean
 
 

@@ -9,16 +9,16 @@ namespace pbf {
 ///   w_ij = 1 - (|x_j - x_i| / s)^3 within s,   m_i = sum_j w_ij x_j / sum_j w_ij,
 ///   C_i = sum_j w_ij (x_j - m_i)(x_j - m_i)^T / sum_j w_ij = R diag(c_1 >= c_2 >= c_3) R^T,
 ///
-/// j over the particles within s and i itself, the sphere around x_i becomes one around x' that is
-/// stretched by G:
+/// j over the particles within s that are not deep (neighborhoods.hpp) and i itself, the sphere
+/// around x_i becomes one around x' that is stretched by G:
 ///
 ///   x' = x_i + kCenterShare a_i (m_i - x_i),
 ///   G = R diag(c'_k / (c'_1 c'_2 c'_3)^(1/3))^(a_i) R^T,   c'_k = max(c_k, c_1 / kMostRatio),
 ///   a_i = anisotropy · min(1, sum_{j != i} w_ij / kFewest).
 ///
-/// G keeps the volume. A particle alone stays the sphere that it is, and so does one in the midst
-/// of others. Where the paper has a sphere of another size for particles with fewer than 25
-/// neighbors, a_i leads there without a step.
+/// G keeps the volume. A particle alone stays the sphere that it is, and so does a deep one, or one
+/// in the midst of others. Where the paper has a sphere of another size for particles with fewer
+/// than 25 neighbors, a_i leads there without a step.
 class Anisotropy {
  public:
   /// Of semi-axes, at most: k_r of the paper.

@@ -15,6 +15,7 @@ void set(std::uint8_t& flag) { __atomic_store_n(&flag, std::uint8_t{1}, __ATOMIC
 }  // namespace
 
 void Crowding::find(Neighborhoods& particles, int threads) {
+  if (particles.sorted().size() == 0) return;
   const CrowdingKernels& kernels = crowding_kernels(chosen_isa());
   const Real inverse_s2 = 1 / (particles.distance() * particles.distance());
   const Records& x = particles.sorted();
@@ -24,33 +25,31 @@ void Crowding::find(Neighborhoods& particles, int threads) {
   body_ = full;
   wanted_.assign(full.size(), 0);
 
-  using Room = CandidateRoom;
   const auto is_no_body = [&](std::uint32_t k) { return !is_set(body_[k]); };
   const auto is_wanted = [&](std::uint32_t k) { return is_set(wanted_[k]); };
-  const auto sum = [&](std::uint32_t k, const Candidates& candidates, Room& room) {
+  const auto sum = [&](auto k, const Candidates& candidates, CandidateRoom& room) {
     m_[k] = std::min(kernels.sum(candidates, x[k], inverse_s2, room.numbers()), kBodySum);
   };
   // Which of these a thread finds marked depends on the others' pace; the result does not.
-  for_each_with_candidates(particles, threads, is_no_body,
-                           [&](auto k, const Candidates& candidates, Room& room) {
-                             if (kernels.is_beside(candidates, x[k], inverse_s2, full.data())) {
-                               set(body_[k]);
-                               return;
-                             }
-                             sum(k, candidates, room);
-                             if (m_[k] == kBodySum)
-                               kernels.mark(candidates, room.numbers(), body_.data());
-                           });
-  for_each_with_candidates(
-      particles, threads, is_no_body, [&](auto k, const Candidates& candidates, Room&) {
-        kernels.mark_unknown(candidates, x[k], inverse_s2, m_.data(), wanted_.data());
-      });
+  const auto sum_or_mark = [&](auto k, const Candidates& candidates, CandidateRoom& room) {
+    if (kernels.is_beside(candidates, x[k], inverse_s2, full.data())) {
+      set(body_[k]);
+      return;
+    }
+    sum(k, candidates, room);
+    if (m_[k] == kBodySum) kernels.mark(candidates, room.numbers(), body_.data());
+  };
+  const auto want_neighbors = [&](auto k, const Candidates& candidates, CandidateRoom&) {
+    kernels.mark_unknown(candidates, x[k], inverse_s2, m_.data(), wanted_.data());
+  };
+  const auto take_largest = [&](auto k, const Candidates& candidates, CandidateRoom&) {
+    const float most = kernels.largest(candidates, x[k], inverse_s2, m_.data());
+    particles.particles()[particles.place(k)].w = most / kBodySum;
+  };
+  for_each_with_candidates(particles, threads, is_no_body, sum_or_mark);
+  for_each_with_candidates(particles, threads, is_no_body, want_neighbors);
   for_each_with_candidates(particles, threads, is_wanted, sum);
-  for_each_with_candidates(
-      particles, threads, is_no_body, [&](auto k, const Candidates& candidates, Room&) {
-        particles.particles()[particles.place(k)].w =
-            kernels.largest(candidates, x[k], inverse_s2, m_.data()) / kBodySum;
-      });
+  for_each_with_candidates(particles, threads, is_no_body, take_largest);
 }
 
 }  // namespace pbf
