@@ -220,7 +220,7 @@ def table(found: dict[str, Any]) -> str:
     """Write Markdown."""
     return "\n".join(
         [
-            f"Whole frames on {found['driver']} and {os.cpu_count()} threads of "
+            f"Whole frames by {found['driver']} and {os.cpu_count()} threads of "
             f"{found['processor']}, commit {found['commit']}, VTK {found['vtk']}. Medians of "
             f"{found['turns']} turns after a warm-up.",
             "",
