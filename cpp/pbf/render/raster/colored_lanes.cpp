@@ -1,5 +1,6 @@
 // Compiled once per instruction set (cpp/pbf_render.cmake).
 #include "pbf/render/raster/colored_kernels.hpp"
+#include "pbf/render/raster/frame_lanes.hpp"
 #include "pbf/render/raster/outline_lanes.hpp"
 
 namespace pbf::PBF_ISA_NAMESPACE {
@@ -101,7 +102,7 @@ void spheres(
         const std::int32_t* number = nearest + y * kWidth + x;
         const RecordLanes sphere =
             records_at([&](int lane) PBF_LAMBDA_INLINE { return centers + number[lane]; });
-        const Lanes d = view.perspective ? Lanes(1) / a : -a;
+        const Lanes d = depth_of(view, a);
         const Lanes spread = view.perspective ? d : Lanes(1);
         const Vec3Lanes p{spread * load_lanes(rays.x + x), spread * Lanes(rays.y[y]), -d};
         n = select(exists, Lanes(1 / view.radius) * (p - sphere.xyz), n);
@@ -130,7 +131,7 @@ PBF_INLINE Lanes surface_around(const SplatView& view, const Texels& surface, in
   const Ints above = clamp(below + 1, 0, surface.height - 1);
   const Lanes a = max(max(fetch(surface, left, below), fetch(surface, right, above)),
                       max(fetch(surface, left, above), fetch(surface, right, below)));
-  const Lanes d = view.perspective ? Lanes(1) / a : -a;
+  const Lanes d = depth_of(view, a);
   return select(a > Lanes(-1e29F), d, kNone);
 }
 

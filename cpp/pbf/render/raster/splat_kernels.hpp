@@ -2,20 +2,15 @@
 
 #include "pbf/core/isa.hpp"
 #include "pbf/core/records.hpp"
+#include "pbf/render/raster/scene.hpp"
 #include "pbf/render/raster/tiles.hpp"
 
 #include <cstdint>
 
 namespace pbf::raster {
 
-/// The uniforms of glsl/sprite.vert and glsl/frame.glsl: plain numbers, for loops that are compiled
-/// for several instruction sets.
-struct SplatView {
-  float view[16];                 ///< world to eye space, column by column
-  float half_width, half_height;  ///< of what is seen (at depth 1 in perspective) [m]
-  float near, far;                ///< [m]
-  float width, height;            ///< [pixels]
-  bool perspective;
+/// The uniforms of glsl/sprite.vert, and those of the frame.
+struct SplatView : FrameTerms {
   float radius, drop_radius;  ///< [m]
   float volume;               ///< of a particle [m³]
 };

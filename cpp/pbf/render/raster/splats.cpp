@@ -1,6 +1,7 @@
 #include "pbf/render/raster/splats.hpp"
 
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/raster/terms.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,24 +41,14 @@ constexpr Index kMostMarked = 1 << 10;
 }  // namespace
 
 SplatView splat_view(const FrameBlock& frame, const RenderParams& params) {
-  SplatView view{.view = {},
-                 .half_width = frame.lens[0],
-                 .half_height = frame.lens[1],
-                 .near = frame.lens[2],
-                 .far = frame.lens[3],
-                 .width = frame.size[0],
-                 .height = frame.size[1],
-                 .perspective = frame.size[2] > 0.5F,
-                 .radius = params.radius,
-                 .drop_radius = params.drop_radius_in_force(),
-                 .volume = params.volume_in_force()};
-  std::copy(frame.view.begin(), frame.view.end(), view.view);
-  return view;
+  return {frame_terms(frame), params.radius, params.drop_radius_in_force(),
+          params.volume_in_force()};
 }
 
 SplatView halved(SplatView view) {
   view.width *= 0.5F;
   view.height *= 0.5F;
+  view.pixels_per_meter *= 0.5F;
   return view;
 }
 
