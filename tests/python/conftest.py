@@ -5,14 +5,28 @@ from __future__ import annotations
 import copy
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 from support.scenes import TINY
 
+import pbfluids as pbf
 from pbfluids import toml
+
+
+@pytest.fixture(scope="module", params=["cpu", "egl"])
+def backend(request: pytest.FixtureRequest) -> str:
+    """Who draws."""
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def renderer(backend: Literal["cpu", "egl"]) -> Iterator[pbf.Renderer]:
+    """Both of them in turn, with a small picture."""
+    with pbf.Renderer(160, 120, backend=backend) as made:
+        yield made
 
 
 @pytest.fixture

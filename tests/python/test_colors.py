@@ -25,17 +25,6 @@ def linear(srgb):
     return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
 
-@pytest.fixture(scope="module", params=["cpu", "egl"])
-def backend(request):
-    return request.param
-
-
-@pytest.fixture(scope="module")
-def renderer(backend):
-    with pbf.Renderer(160, 120, backend=backend) as made:
-        yield made
-
-
 @pytest.mark.parametrize("name", ORDERED)
 def test_a_map_is_the_one_of_its_name(name):
     matplotlib = pytest.importorskip("matplotlib")

@@ -17,17 +17,6 @@ CLOUD = np.concatenate([BLOCK, DROPS])
 WATER = {"radius": 0.048, "drop_radius": 0.0248, "particle_volume": 0.04**3}
 
 
-@pytest.fixture(scope="module", params=["cpu", "egl"])
-def backend(request):
-    return request.param
-
-
-@pytest.fixture(scope="module")
-def renderer(backend):
-    with pbf.Renderer(160, 120, backend=backend) as made:
-        yield made
-
-
 def linear(image):
     """Light of sRGB-encoded values, 0 to 255."""
     v = np.asarray(image, float) / 255

@@ -19,17 +19,6 @@ GLSL = Path(__file__).parents[2] / "glsl"
 ALONG_Z = {"eye": (0, 0, 0), "target": (0, 0, -1)}
 
 
-@pytest.fixture(scope="module", params=["cpu", "egl"])
-def backend(request):
-    return request.param
-
-
-@pytest.fixture(scope="module")
-def renderer(backend):
-    with pbf.Renderer(160, 120, backend=backend) as made:
-        yield made
-
-
 def rays(camera, width=160, height=120):
     """Slopes x/depth, y/depth of the pixels' rays; row 0 on top."""
     half = np.tan(np.radians(camera.fov_y) / 2)

@@ -17,17 +17,6 @@ WALL = pbf.block((-1.6, -1.2, -2.0), (1.6, 1.2, -1.7), spacing=0.04)
 SUN = np.array([0, 1, 1]) / np.sqrt(2)
 
 
-@pytest.fixture(scope="module", params=["cpu", "egl"])
-def backend(request):
-    return request.param
-
-
-@pytest.fixture(scope="module")
-def renderer(backend):
-    with pbf.Renderer(160, 120, backend=backend) as made:
-        yield made
-
-
 def linear(image):
     """Light of sRGB-encoded values, 0 to 255."""
     v = np.asarray(image[..., :3], float) / 255
