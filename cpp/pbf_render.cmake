@@ -24,6 +24,7 @@ add_library(pbf_render STATIC
   pbf/render/lettering.cpp
   pbf/render/legend.cpp
   pbf/render/extent.cpp
+  pbf/render/deposit.cpp
   pbf/render/full_cells.cpp
   pbf/render/crowding.cpp
   pbf/render/neighborhoods.cpp
@@ -65,6 +66,7 @@ add_library(pbf_render STATIC
   pbf/render/raster/layers.cpp
   pbf/render/raster/smooth.cpp
   pbf/render/raster/splats.cpp
+  pbf/render/raster/deep_thickness.cpp
   pbf/render/passes/resolve.cpp
   pbf/render/raster/surface_maps.cpp
   pbf/render/raster/curvature_flow.cpp
@@ -76,9 +78,12 @@ target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
 
 # The loops over particles and pixels.
 pbf_add_lanes(pbf_render
+  pbf/render/full_cells_lanes.cpp
   pbf/render/crowding_lanes.cpp
+  pbf/render/shadow_lanes.cpp
   pbf/render/anisotropy_lanes.cpp
   pbf/render/raster/splats_lanes.cpp
+  pbf/render/raster/deep_lanes.cpp
   pbf/render/raster/smooth_lanes.cpp
   pbf/render/raster/curvature_flow_lanes.cpp
   pbf/render/raster/normal_lanes.cpp

@@ -26,7 +26,7 @@ inline DrawnSplats draw_splats(const Records& particles,
   raster::Map depth(width, height, kNothing), thickness(width, height, 0);
   raster::Map back(width, height, kNothing);
   splats.bin(particles.data(), particles.size(), view, threads, stretches);
-  splats.draw(view, &depth, thickness, &back, threads);
+  splats.draw(view, depth, thickness, back, threads);
   const auto numbers = [](const raster::Map& map) {
     std::vector<float> all;
     for (int y = 0; y < map.height(); ++y) {

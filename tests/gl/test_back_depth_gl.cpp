@@ -38,7 +38,7 @@ TEST_CASE("back_depth: the far side of the farthest sphere, by shaders and in C+
         back(width, height, kNothing);
     const Records records = particles(centers);
     splats.bin(records.data(), records.size(), view, 1);
-    splats.draw(view, &front, sum, &back, 1);
+    splats.draw(view, front, sum, back, 1);
 
     int seen = 0;
     for (int y = 0; y < height; ++y) {

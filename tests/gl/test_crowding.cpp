@@ -33,16 +33,16 @@ struct Found {
 /// With sprites of half of s: those of a body hide what is deep in it.
 Found find(const Points& positions, Real s, const Camera& camera = camera_at(Vec3::Zero())) {
   Neighborhoods result;
-  result.find(positions, camera, s, 0.5F * s);
+  result.find(positions, camera, s, 0.5F * s, Neighborhoods::Deep::last);
   Crowding().find(result);
   const Index n = positions.cols();
-  Found found{Points(3, n), Scalars(n), result.deep()};
+  Found found{Points(3, n), Scalars(n), n - result.shallow_count()};
   for (Index i = 0; i < n; ++i) {
     const Record& particle = result.particles()[i];
     found.x.col(i) << particle.x, particle.y, particle.z;
     found.c[i] = particle.w;
   }
-  CHECK(result.shallow() == found.x.leftCols(n - result.deep()));
+  CHECK(result.shallow() == found.x.leftCols(result.shallow_count()));
   return found;
 }
 Scalars crowding(const Points& positions, Real s) { return find(positions, s).c; }
@@ -140,8 +140,9 @@ TEST_CASE("crowding: nothing is hidden from within, by the near plane, or by sma
   const Points x = lattice(20, 20, 20);
   const auto deep = [&](const Camera& camera, Real radius = 1.2F) {
     Neighborhoods particles;
-    particles.find(x, camera, 2.4F, radius);
-    return particles.deep();
+    particles.find(x, camera, 2.4F, radius, Neighborhoods::Deep::left_out);
+    CHECK(particles.particles().size() == particles.shallow_count());
+    return x.cols() - particles.shallow_count();
   };
   Camera camera = camera_at({10, 10, 40});
   const Index from_outside = deep(camera);
@@ -205,7 +206,7 @@ TEST_CASE("crowding: the same bits for any number of threads and every instructi
   }
   const auto found = [&](int threads) {
     Neighborhoods particles;
-    particles.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, threads);
+    particles.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, Neighborhoods::Deep::last, threads);
     Crowding().find(particles, threads);
     std::vector<Real> c;
     for (Index i = 0; i < x.cols(); ++i) c.push_back(particles.particles()[i].w);

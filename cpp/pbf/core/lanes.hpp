@@ -116,6 +116,7 @@ PBF_INLINE Lanes ceil(Lanes a) {
       __builtin_convertvector(__builtin_convertvector(a.v, Mask::Vector), Lanes::Vector)};
   return select(cut < a, cut + Lanes(1), cut);
 }
+PBF_INLINE Lanes floor(Lanes a) { return -ceil(-a); }
 
 /// e^a within two units in the last place, of -87 for less, of 88 for more.
 PBF_INLINE Lanes exp(Lanes a) {
@@ -227,6 +228,10 @@ PBF_INLINE RecordLanes records_at(F&& f) {
 }
 PBF_INLINE RecordLanes load_records(const Record* from) {
   return records_at([&](int lane) PBF_LAMBDA_INLINE { return from + lane; });
+}
+/// @param xyz  three numbers each, and one more behind the last
+PBF_INLINE Vec3Lanes load_points(const Real* xyz) {
+  return records_at([&](int lane) PBF_LAMBDA_INLINE { return xyz + 3 * lane; }).xyz;
 }
 /// @param entries  kLanes entries of a neighbor list: four times the places of particles
 PBF_INLINE RecordLanes gather(const Record* records, const std::uint32_t* entries) {

@@ -32,10 +32,16 @@ bool is_beside(const Candidates& candidates,
   const Candidates j = candidates;
   const Vec3Lanes x{particle.x, particle.y, particle.z};
   bool found = false;
-  for (std::uint32_t k = 0; k < j.count && !found; k += kLanes) {
+  const auto look = [&](std::uint32_t k) PBF_LAMBDA_INLINE {
     for_each_lane(Lanes(1.0F) <= 1.5F * u_of(j, k, x, inverse_s2),
                   [&](std::uint32_t lane)
                       PBF_LAMBDA_INLINE { found |= flags[j.entry[k + lane] / 4] != 0; });
+  };
+  // From the middle outwards, where the nearest rows of cells are.
+  const std::uint32_t vectors = (j.count + kLanes - 1) / kLanes;
+  for (std::uint32_t below = vectors / 2, above = below; !found && above < vectors; ++above) {
+    look(above * kLanes);
+    if (below > 0) look(--below * kLanes);
   }
   return found;
 }

@@ -223,7 +223,8 @@ Surface FluidRenderer::draw_fluid(const PointsView& positions,
   Passes& pass = *passes_;
   Targets& to = *targets_;
   stage("crowding", [&] {
-    pass.particles.find(positions, camera, params.neighbor_distance(), params.radius);
+    pass.particles.find(positions, camera, params.neighbor_distance(), params.radius,
+                        Neighborhoods::Deep::last);
     if (params.drop_radius) pass.crowding.find(pass.particles);
   });
   const Real nearest = nearest_front(pass.particles.shallow(), params.radius, frame, 0);

@@ -2,15 +2,18 @@
 
 #include "pbf/core/parallel.hpp"
 #include "pbf/render/extent.hpp"
+#include "pbf/render/full_cells_kernels.hpp"
+#include "pbf/render/point_block.hpp"
 
 #include <algorithm>
 
 namespace pbf {
+PBF_TABLE_BY_ISA(FullCellsKernels, full_cells_kernels, full_cells_kernels)
 namespace {
 
 constexpr int kMargin = 2;         // cells on each side of the particles
 constexpr double kMostCells = 32;  // to a particle
-constexpr Index kBlock = 1 << 14;  // cells or particles at a time
+constexpr Index kBlock = 1 << 12;  // cells or particles at a time
 
 }  // namespace
 
@@ -35,47 +38,78 @@ void FullCells::around(Flags& cells, int reach, int threads, Combine&& combine) 
   }
 }
 
+template <class F>
+void FullCells::for_inner(int threads, F&& f) const {
+  parallel_chunks(sides_[2] - 2 * kMargin, threads, 1, [&](Index z, Index) {
+    for (Index y = kMargin; y < sides_[1] - kMargin; ++y) {
+      const Index row = (z + kMargin) * strides_[2] + y * strides_[1];
+      for (Index x = kMargin; x < sides_[0] - kMargin; ++x) {
+        f(static_cast<std::size_t>(row + x), x, y, z + kMargin);
+      }
+    }
+  });
+}
+
+void FullCells::expose(const std::function<bool(const Vec3&)>& is_seen, int threads) {
+  for_inner(threads, [&](std::size_t k, Index x, Index y, Index z) {
+    const Vec3 number(static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z));
+    const Vec3 middle = side_ * (first_ + number + Vec3::Constant(0.5F));
+    if (places_[k] == Place::deep && is_seen(middle)) places_[k] = Place::full;
+  });
+}
+
 void FullCells::find(const PointsView& positions, Real side, int threads) {
   const Index n = positions.cols();
   const Extent body = extent(positions, Eigen::Matrix<Real, 3, 3>::Identity(), threads);
-  const double per_meter = 1 / static_cast<double>(side);
-  const Eigen::Array3d first = (body.lower * per_meter).floor() - kMargin;
-  const Eigen::Array3d counts = (body.upper * per_meter).floor() + kMargin + 1 - first;
-  cells_.assign(static_cast<std::size_t>(n), 0);
-  places_.assign(1, Place::open);
-  if (n == 0 || !(counts.prod() <= std::min(kMostCells * static_cast<double>(n), 4e9))) return;
-  const Eigen::Array<Index, 3, 1> sides = counts.cast<Index>();
-  strides_ = {1, sides[0], sides[0] * sides[1]};
-  const auto size = static_cast<std::size_t>(sides.prod());
+  const Real per_meter = 1 / side;
+  const auto number = [&](const Eigen::Array3d& at) -> Eigen::Array3f {
+    return (at.cast<Real>() * per_meter).floor();
+  };
+  const Eigen::Array3f first = number(body.lower) - kMargin;
+  const Eigen::Array3f counts = number(body.upper) + kMargin + 1 - first;
+  side_ = side;
+  first_ = first;
+  sides_.setZero();
+  cells_.resize(static_cast<std::size_t>(n + kMostLanes));
+  const double most = std::min(kMostCells * static_cast<double>(n), 2e9);
+  has_all_ = false;
+  if (n == 0 || !(counts.cast<double>().prod() <= most)) {
+    std::ranges::fill(cells_, 0);
+    places_.assign(1, Place::open);
+    return;
+  }
+  sides_ = counts.cast<Index>();
+  strides_ = {1, sides_[0], sides_[0] * sides_[1]};
+  const auto size = static_cast<std::size_t>(sides_.prod());
   holds_.assign(size, 0);
+  CellBlock block{per_meter, {}, {}, {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    block.first[axis] = first[axis];
+    block.counts[axis] = counts[axis];
+    block.strides[axis] = static_cast<std::int32_t>(strides_[axis]);
+  }
+  const FullCellsKernels& kernels = full_cells_kernels(chosen_isa());
   parallel_chunks(n, threads, kBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const Eigen::Array3d at = positions.col(i).cast<double>().array() * per_meter - first;
-      if (!((at >= 0).all() && (at < counts).all())) continue;
-      const auto cell = static_cast<std::size_t>(static_cast<Index>(at[0]) +
-                                                 static_cast<Index>(at[1]) * strides_[1] +
-                                                 static_cast<Index>(at[2]) * strides_[2]);
-      cells_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell);
-      __atomic_store_n(&holds_[cell], std::uint8_t{1}, __ATOMIC_RELAXED);
+    thread_local std::vector<Real> room;
+    std::array<std::uint32_t, kBlock + kMostLanes> found;
+    kernels.locate(point_block(positions, begin, end, room), end - begin, block, found.data());
+    std::copy_n(found.data(), end - begin, cells_.data() + begin);
+    for (Index i = 0; i < end - begin; ++i) {
+      __atomic_store_n(&holds_[found[i]], std::uint8_t{1}, __ATOMIC_RELAXED);
     }
   });
 
+  has_all_ = holds_[0] == 0;
   full_ = holds_;
   around(full_, 1, threads, [](int a, int b) { return a & b; });
   // Beyond the margin there may be a particle that flew off: all of the margin is open.
   places_.assign(size, Place::open);
   near_open_.assign(size, 1);
-  const auto for_inner = [&](auto&& f) {
-    parallel_chunks(sides[2] - 2 * kMargin, threads, 1, [&](Index z, Index) {
-      for (Index y = kMargin; y < sides[1] - kMargin; ++y) {
-        const Index row = (z + kMargin) * strides_[2] + y * strides_[1];
-        for (Index x = kMargin; x < sides[0] - kMargin; ++x) f(static_cast<std::size_t>(row + x));
-      }
-    });
-  };
-  for_inner([&](std::size_t k) { near_open_[k] = holds_[k] & (full_[k] ^ 1); });
+  for_inner(threads, [&](std::size_t k, Index, Index, Index) {
+    near_open_[k] = holds_[k] & (full_[k] ^ 1);
+  });
   around(near_open_, 2, threads, [](int a, int b) { return a | b; });
-  for_inner([&](std::size_t k) {
+  for_inner(threads, [&](std::size_t k, Index, Index, Index) {
     if (full_[k] != 0) places_[k] = near_open_[k] != 0 ? Place::full : Place::deep;
   });
 }

@@ -3,6 +3,7 @@
 #include "pbf/core/types.hpp"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace pbf {
@@ -20,10 +21,18 @@ class FullCells {
 
   /// @param side  of the cells [m]
   void find(const PointsView& positions, Real side, int threads);
+  /// Makes full ones of the deep cells of which `is_seen` says so, by their middles.
+  void expose(const std::function<bool(const Vec3& middle)>& is_seen, int threads);
+
   /// Of particle i.
   [[nodiscard]] Place operator[](Index i) const {
     return places_[cells_[static_cast<std::size_t>(i)]];
   }
+  /// Whether all particles are in cells: whoever flew off is not.
+  [[nodiscard]] bool has_all() const { return has_all_; }
+  /// Corners of the block of all cells [m].
+  [[nodiscard]] Vec3 lower() const { return side_ * first_; }
+  [[nodiscard]] Vec3 upper() const { return side_ * (first_ + sides_.cast<Real>().matrix()); }
 
  private:
   using Flags = std::vector<std::uint8_t>;
@@ -31,8 +40,16 @@ class FullCells {
   template <class Combine>
   void around(Flags& cells, int reach, int threads, Combine&& combine);
 
-  std::vector<std::uint32_t> cells_;  // of the particles; the first for who is in none
+  /// Calls f(cell, x, y, z) for all cells but those of the margin.
+  template <class F>
+  void for_inner(int threads, F&& f) const;
+
+  Real side_ = 0;
+  Vec3 first_ = Vec3::Zero();                   // number of the least cell on each axis
+  Eigen::Array<Index, 3, 1> sides_{0, 0, 0};    // [cells]
   std::array<Index, 3> strides_{1, 0, 0};
+  bool has_all_ = false;
+  std::vector<std::uint32_t> cells_;  // of the particles; 0, in the margin, for who is in none
   Flags holds_, full_, near_open_, scratch_;
   std::vector<Place> places_;  // of the cells
 };

@@ -2,6 +2,8 @@
 
 #include "pbf/core/parallel.hpp"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 namespace pbf {
@@ -20,30 +22,26 @@ struct Starts {
 }  // namespace
 
 /// Sets deep particles apart from the others, and picks those to sort.
-void Neighborhoods::part(const PointsView& positions,
-                         const Camera& camera,
-                         Real radius,
-                         int threads) {
+void Neighborhoods::part(const PointsView& positions, const Camera& camera, Deep deep, int threads) {
   const Index n = positions.cols();
   const Vec3& eye = camera.eye;
-  const Vec3 ahead = (camera.target - eye).normalized();
-  const Real hidden_from = radius < 0.4F * s_ ? static_cast<Real>(kInfinity) : camera.near + 2 * s_;
   const Real farthest = 0.5F * static_cast<Real>(kFarthestCell) * s_;
-  const auto is_hidden = [&](Index i) { return ahead.dot(positions.col(i) - eye) > hidden_from; };
-  const auto is_near = [&](Index i) {
-    return s_ > 0 && ((positions.col(i) - eye).array().abs() <= farthest).all();
-  };
-  if (s_ > 0) cells_.find(positions, 0.6F * s_, threads);
+  const auto is_near = [&](const Vec3& x) { return ((x - eye).array().abs() <= farthest).all(); };
+  const bool all_near = s_ > 0 && cells_.has_all() && is_near(cells_.lower()) && is_near(cells_.upper());
+  const auto is_sorted = [&](Index i) { return all_near || (s_ > 0 && is_near(positions.col(i))); };
   places_.resize(static_cast<std::size_t>(n));
   std::vector<Starts> starts(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     Starts& count = starts[static_cast<std::size_t>(first / kBlock)];
+    const auto places = std::span(places_).subspan(first, last - first);
+    for (Index i = first; i < last; ++i) places[i - first] = s_ > 0 ? cells_[i] : Place::open;
+    count.deep = std::ranges::count(places, Place::deep);
+    if (all_near) {
+      count.near = last - first - count.deep;
+      return;
+    }
     for (Index i = first; i < last; ++i) {
-      Place place = s_ > 0 ? cells_[i] : Place::open;
-      if (place == Place::deep && !is_hidden(i)) place = Place::full;
-      places_[static_cast<std::size_t>(i)] = place;
-      count.deep += place == Place::deep ? 1 : 0;
-      count.near += place != Place::deep && is_near(i) ? 1 : 0;
+      count.near += places[i - first] != Place::deep && is_sorted(i) ? 1 : 0;
     }
   });
   Starts sum;
@@ -51,22 +49,23 @@ void Neighborhoods::part(const PointsView& positions,
     sum.near += std::exchange(start.near, sum.near);
     sum.deep += std::exchange(start.deep, sum.deep);
   }
-  deep_ = sum.deep;
-  particles_.resize(n);
+  shallow_ = n - sum.deep;
+  particles_.resize(deep == Deep::last ? n : shallow_);
   near_.resize(sum.near);
   ids_.resize(static_cast<std::size_t>(sum.near));
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     Starts& at = starts[static_cast<std::size_t>(first / kBlock)];
     Index shallow = first - at.deep;
-    Index deep = n - sum.deep + at.deep;
+    Index last_deep = shallow_ + at.deep;
     for (Index i = first; i < last; ++i) {
-      const Record particle{positions(0, i), positions(1, i), positions(2, i), 1};
       const Place place = places_[static_cast<std::size_t>(i)];
+      if (place == Place::deep && deep == Deep::left_out) continue;
+      const Record particle{positions(0, i), positions(1, i), positions(2, i), 1};
       if (place == Place::deep) {
-        particles_[deep++] = particle;
+        particles_[last_deep++] = particle;
         continue;
       }
-      if (is_near(i)) {
+      if (is_sorted(i)) {
         const Vec3 x = positions.col(i) - eye;
         near_[at.near] = {x.x(), x.y(), x.z(), place == Place::full ? 1.0F : 0.0F};
         ids_[static_cast<std::size_t>(at.near++)] = static_cast<std::uint32_t>(shallow);
@@ -88,10 +87,24 @@ void Neighborhoods::sort(int threads) {
   });
 }
 
-void Neighborhoods::find(
-    const PointsView& positions, const Camera& camera, Real s, Real radius, int threads) {
+void Neighborhoods::find(const PointsView& positions,
+                         const Camera& camera,
+                         Real s,
+                         Real radius,
+                         Deep deep,
+                         int threads) {
   s_ = s;
-  part(positions, camera, radius, threads);
+  if (s > 0) {
+    cells_.find(positions, 0.6F * s, threads);
+    // Only large sprites hide what is behind them, and none what the near plane cuts open.
+    const Vec3 ahead = (camera.target - camera.eye).normalized();
+    const Real open_to = camera.near + 2 * s;
+    const auto is_seen = [&](const Vec3& x) {
+      return radius < 0.4F * s || ahead.dot(x - camera.eye) <= open_to;
+    };
+    cells_.expose(is_seen, threads);
+  }
+  part(positions, camera, deep, threads);
   sort(threads);
 }
 

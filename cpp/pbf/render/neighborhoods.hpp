@@ -19,19 +19,28 @@ class Neighborhoods {
   /// @param camera     particles that are more than 2^19 s from it are not sorted: nobody sees them
   /// @param s          0: nobody is sorted, and nobody deep
   /// @param radius     of a body's sprites [m]: only large ones hide what is behind them
-  void find(
-      const PointsView& positions, const Camera& camera, Real s, Real radius, int threads = 0);
+  /// @param deep       whether they are wanted among the particles()
+  enum class Deep { last, left_out };
+  void find(const PointsView& positions,
+            const Camera& camera,
+            Real s,
+            Real radius,
+            Deep deep,
+            int threads = 0);
 
   [[nodiscard]] Real distance() const { return s_; }
-  /// Positions in the order given, but deep ones last. The fourth number is 1, for passes to set.
+  /// Positions in the order given, but deep ones last or left out. The fourth number is 1, for
+  /// passes to set.
   [[nodiscard]] Records& particles() { return particles_; }
   [[nodiscard]] const Records& particles() const { return particles_; }
-  /// How many of them are so deep in a body, and behind the near plane, that others hide them.
-  [[nodiscard]] Index deep() const { return deep_; }
-  /// Positions of the others.
+  /// Where they are, in the order given: deep ones are so deep in a body, and behind the near plane,
+  /// that others hide them.
+  [[nodiscard]] const std::vector<FullCells::Place>& places() const { return places_; }
+  /// How many are not deep, and their positions.
+  [[nodiscard]] Index shallow_count() const { return shallow_; }
   [[nodiscard]] auto shallow() const {
     using Strided = Eigen::Map<const Points, Eigen::Unaligned, Eigen::OuterStride<>>;
-    return Strided(&particles_.data()->x, 3, particles_.size() - deep_, Eigen::OuterStride<>(4));
+    return Strided(&particles_.data()->x, 3, shallow_, Eigen::OuterStride<>(4));
   }
 
   /// Shallow particles by cell, seen from the eye; their fourth number means nothing.
@@ -44,7 +53,7 @@ class Neighborhoods {
   [[nodiscard]] const CellGrid& grid() const { return grid_; }
 
  private:
-  void part(const PointsView& positions, const Camera& camera, Real radius, int threads);
+  void part(const PointsView& positions, const Camera& camera, Deep deep, int threads);
   void sort(int threads);
 
   Real s_ = 0;
@@ -53,7 +62,7 @@ class Neighborhoods {
   std::vector<FullCells::Place> places_;  ///< in the order given
   Records particles_;                     ///< all
   Records near_;                          ///< to sort: seen from the eye, and 1 in a full cell
-  Index deep_ = 0;
+  Index shallow_ = 0;
   std::vector<std::uint32_t> ids_;  ///< of near_: places in particles_
   Records sorted_;                  ///< near_ in the order of the grid
   std::vector<std::uint8_t> full_;

@@ -1,7 +1,10 @@
 #include "pbf/render/sun_shadow.hpp"
 
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/deposit.hpp"
 #include "pbf/render/extent.hpp"
+#include "pbf/render/point_block.hpp"
+#include "pbf/render/shadow_kernels.hpp"
 
 #include <Eigen/Geometry>
 
@@ -9,15 +12,13 @@
 #include <array>
 
 namespace pbf {
+PBF_TABLE_BY_ISA(ShadowKernels, shadow_kernels, shadow_kernels)
 namespace {
 
 constexpr int kThreads = 0;  // all there are
 /// Width of the Gaussian and of the margin around the fluid [texels].
 constexpr Real kDeviation = 2;
 constexpr int kReach = 6;
-/// Most parts that the particles are added up in, each of this many or more.
-constexpr Index kMostParts = 8;
-constexpr Index kLeastPart = 1 << 14;
 
 using Grid = std::vector<Real>;
 
@@ -43,42 +44,26 @@ Points corners_of(const Meshes& meshes) {
   return corners;
 }
 
-/// Each volume goes to the four texels around it, shared so that its center stays where it is.
+/// Thickness of the fluid towards the sun.
 Grid columns(const PointsView& positions, const SunShadow& map, Real volume, Real texel) {
-  const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
-  const Real t = volume / (texel * texel);
-  const auto w = static_cast<Real>(map.width);
-  const auto h = static_cast<Real>(map.height);
-  // A part has a grid of its own, and how many there are does not depend on the threads.
-  const Index n = positions.cols();
-  const Index parts = std::clamp<Index>(n / kLeastPart, 1, kMostParts);
-  const Index part = std::max<Index>((n + parts - 1) / parts, 1);
-  std::vector<Grid> grids(static_cast<std::size_t>(parts));
-  parallel_chunks(n, kThreads, part, [&](Index first, Index last) {
-    Grid& grid = grids[static_cast<std::size_t>(first / part)];
-    grid.resize(size);
-    for (Index i = first; i < last; ++i) {
-      const Vec3 p = positions.col(i) - map.center;
-      const Real u = (map.x.dot(p) + 0.5F) * w - 0.5F;
-      const Real v = (map.y.dot(p) + 0.5F) * h - 0.5F;
-      if (!(u >= 0 && v >= 0 && u < w - 1 && v < h - 1)) continue;
-      const int column = static_cast<int>(u);
-      const int row = static_cast<int>(v);
-      const Real right = u - static_cast<Real>(column);
-      const Real up = v - static_cast<Real>(row);
-      Real* at = grid.data() + static_cast<std::size_t>(row) * map.width + column;
-      at[0] += t * (1 - right) * (1 - up);
-      at[1] += t * right * (1 - up);
-      at[map.width] += t * (1 - right) * up;
-      at[map.width + 1] += t * right * up;
-    }
+  const Vec3 u = static_cast<Real>(map.width) * map.x, v = static_cast<Real>(map.height) * map.y;
+  const ShadowFrame frame{{map.center.x(), map.center.y(), map.center.z()},
+                          {u.x(), u.y(), u.z()},
+                          {v.x(), v.y(), v.z()},
+                          0.5F * static_cast<Real>(map.width - 1),
+                          0.5F * static_cast<Real>(map.height - 1),
+                          map.width,
+                          map.height};
+  const ShadowKernels& kernels = shadow_kernels(chosen_isa());
+  const std::array<Deposit::Size, 1> grids{{{map.width, map.height}}};
+  Deposit deposit;
+  deposit.add(grids, positions.cols(), kThreads, [&](Index first, Index last, Shares& shares) {
+    thread_local std::vector<Real> room;
+    kernels.share(point_block(positions, first, last, room), last - first, frame,
+                  volume / (texel * texel), shares);
   });
-  Grid sum(size);
-  parallel_for(static_cast<Index>(size), kThreads, [&](Index k) {
-    for (const Grid& grid : grids) {
-      if (!grid.empty()) sum[static_cast<std::size_t>(k)] += grid[static_cast<std::size_t>(k)];
-    }
-  });
+  Grid sum(static_cast<std::size_t>(map.width) * map.height);
+  deposit.add_to(sum, 0, kThreads);
   return sum;
 }
 

@@ -20,7 +20,6 @@ PBF_INLINE Ints lane_numbers() {
 PBF_INLINE Lanes abs(Lanes a) {
   return {reinterpret_cast<Lanes::Vector>(reinterpret_cast<Ints>(a.v) & 0x7FFFFFFF)};
 }
-PBF_INLINE Lanes floor(Lanes a) { return -ceil(-a); }
 /// Of numbers within ±2^31; cuts off what is behind the point.
 PBF_INLINE Ints to_ints(Lanes a) { return __builtin_convertvector(a.v, Ints); }
 PBF_INLINE Lanes to_lanes(Ints a) { return {__builtin_convertvector(a, Lanes::Vector)}; }

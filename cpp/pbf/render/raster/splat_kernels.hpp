@@ -35,7 +35,7 @@ struct SplatKernels {
   /// Draws sprites into a tile of the maps. Behind the last sprite there must be kMostLanes that
   /// can be read.
   /// @param stretches  in eye space; null: spheres
-  /// @param depth, thickness, back  the tile's first pixel; without depth only thickness is drawn
+  /// @param depth, thickness, back  the tile's first pixel
   void (*draw)(const Record* centers,
                const Record* stretches,
                Index count,

@@ -45,38 +45,6 @@ SplatView splat_view(const FrameBlock& frame, const RenderParams& params) {
           params.volume_in_force()};
 }
 
-SplatView halved(SplatView view) {
-  view.width *= 0.5F;
-  view.height *= 0.5F;
-  view.pixels_per_meter *= 0.5F;
-  return view;
-}
-
-void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads) {
-  constexpr int kHalf = kTileSide / 2;
-  const std::vector<Tile> list = tiles.list();
-  parallel_chunks(std::ssize(list), threads, 1, [&](Index first, Index) {
-    const Tile tile = list[static_cast<std::size_t>(first)];
-    const int left = tile.x / 2;
-    // A pixel lies a quarter of the larger pixels' distance from the nearest of these.
-    std::array<float, kHalf + 2> column;
-    for (int y = tile.y; y < tile.y + kTileSide; ++y) {
-      const auto row = [&](int at) { return from.row(std::clamp(at, 0, from.height() - 1)); };
-      const float* near = row(y / 2);
-      const float* far = row(y % 2 == 0 ? y / 2 - 1 : y / 2 + 1);
-      for (int k = 0; k < kHalf + 2; ++k) {
-        const int x = std::clamp(left + k - 1, 0, from.width() - 1);
-        column[k] = 0.75F * near[x] + 0.25F * far[x];
-      }
-      float* out = to.row(y) + tile.x;
-      for (int k = 0; k < kHalf; ++k) {
-        out[2 * k] += 0.75F * column[k + 1] + 0.25F * column[k];
-        out[2 * k + 1] += 0.75F * column[k + 1] + 0.25F * column[k + 2];
-      }
-    }
-  });
-}
-
 void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles) {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
   const SplatView view = splat_view(frame, {.radius = radius});
@@ -207,18 +175,15 @@ void Splats::for_tiles(int threads, const std::function<TileLoop>& f) const {
   });
 }
 
-void Splats::draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const {
+void Splats::draw(const SplatView& view, Map& depth, Map& thickness, Map& back, int threads) const {
   const SplatKernels& kernels = splat_kernels(chosen_isa());
+  depth.begin(tiles_);
   thickness.begin(tiles_);
-  if (depth != nullptr) {
-    depth->begin(tiles_);
-    back->begin(tiles_);
-  }
+  back.begin(tiles_);
   for_tiles(threads, [&](Tile tile, const Record* centers, const Record* stretches, Index count) {
     const std::ptrdiff_t at = tile.y * thickness.pitch() + tile.x;
-    kernels.draw(centers, stretches, count, view, tile,
-                 depth == nullptr ? nullptr : depth->row(0) + at, thickness.row(0) + at,
-                 depth == nullptr ? nullptr : back->row(0) + at, thickness.pitch());
+    kernels.draw(centers, stretches, count, view, tile, depth.row(0) + at, thickness.row(0) + at,
+                 back.row(0) + at, thickness.pitch());
   });
 }
 

@@ -23,11 +23,10 @@ class Splats {
            const SplatView& view,
            int threads,
            const Record* stretches = nullptr);
-  /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it; if none
-  ///                   is given, only thickness is drawn
+  /// @param depth      affine depth with its crowding, as glsl/sphere_depth.frag writes it
   /// @param thickness  [m]
-  /// @param back       affine depth of the farthest far side; given with depth
-  void draw(const SplatView& view, Map* depth, Map& thickness, Map* back, int threads) const;
+  /// @param back       affine depth of the farthest far side
+  void draw(const SplatView& view, Map& depth, Map& thickness, Map& back, int threads) const;
   using TileLoop = void(Tile tile, const Record* centers, const Record* stretches, Index count);
   /// Calls f for each tile that sprites cover, several at once: centers in eye space, with the
   /// fourth number that they came with.
@@ -59,11 +58,6 @@ class Splats {
 };
 
 SplatView splat_view(const FrameBlock& frame, const RenderParams& params);
-
-/// The same with half as many pixels to a side, of a picture whose odd last pixel is half covered.
-SplatView halved(SplatView view);
-/// Adds what was drawn with half as many pixels, interpolated linearly, in the tiles of `to`.
-void add_halved(const Map& from, const Tiles& tiles, Map& to, int threads);
 
 /// Marks the tiles that spheres of a radius [m] can reach.
 void mark_tiles(const PointsView& positions, Real radius, const FrameBlock& frame, Tiles& tiles);

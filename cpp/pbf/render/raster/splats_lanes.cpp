@@ -86,7 +86,7 @@ PBF_INLINE Miss miss(const ToSphere& to, Lanes px, Lanes py) {
   return {middle, dot(beside, beside), inverse2};
 }
 
-template <bool kPerspective, bool kDepth, bool kStretched>
+template <bool kPerspective, bool kStretched>
 void splat(const Sprite& s, const ToSphere& to_sphere, const SplatView& view, Workspace& to) {
   const Lanes radius2 = s.radius * s.radius;
   const Ints level = static_cast<std::int32_t>(s.level) - Ints{};
@@ -122,7 +122,6 @@ void splat(const Sprite& s, const ToSphere& to_sphere, const SplatView& view, Wo
       const Lanes chord = kPerspective ? inside * load_lanes(to.length + at) : inside;
       store(to.thickness + at,
             load_lanes(to.thickness + at) + max(select(hit, chord, 0.0F), 0.0F) * s.share);
-      if (!kDepth) continue;
       store(to.back + at, max(load_lanes(to.back + at), select(hit, min(back, view.far), 0.0F)));
       const Mask seen = hit & (chord > Lanes(0.0F)) & (Lanes(view.near) <= front);
       const Lanes affine = kPerspective ? 1.0F / front : -front;
@@ -133,7 +132,7 @@ void splat(const Sprite& s, const ToSphere& to_sphere, const SplatView& view, Wo
   }
 }
 
-template <bool kPerspective, bool kDepth, bool kStretched>
+template <bool kPerspective, bool kStretched>
 void draw_tile(const Record* centers,
                [[maybe_unused]] const Record* stretches,
                Index count,
@@ -156,10 +155,8 @@ void draw_tile(const Record* centers,
     for (int x = 0; x < kWidth; x += kLanes) {
       const int at = y * kWidth + x;
       store(work.thickness + at, 0.0F);
-      if (kDepth) {
-        store(work.depth + at, kNothing);
-        store(work.back + at, 0.0F);
-      }
+      store(work.depth + at, kNothing);
+      store(work.back + at, 0.0F);
       const Lanes px = load_lanes(work.x + x), py = work.y[y];
       const Lanes length2 = px * px + py * py + 1.0F;
       store(work.inverse2 + at, 1.0F / length2);
@@ -197,12 +194,11 @@ void draw_tile(const Record* centers,
         to = {of(inverse.xx, inverse.xy, inverse.xz), of(inverse.xy, inverse.yy, inverse.yz),
               of(inverse.xz, inverse.yz, inverse.zz), of(center.x, center.y, center.z)};
       }
-      splat<kPerspective, kDepth, kStretched>(sprite, to, view, work);
+      splat<kPerspective, kStretched>(sprite, to, view, work);
     }
   }
   for (int y = 0; y < kTileSide; ++y) {
     std::memcpy(thickness + y * pitch, work.thickness + y * kWidth, kTileSide * sizeof(float));
-    if (!kDepth) continue;
     std::memcpy(depth + y * pitch, work.depth + y * kWidth, kTileSide * sizeof(float));
     for (int x = 0; x < kTileSide; x += kLanes) {
       const Lanes at = load_lanes(work.back + y * kWidth + x);
@@ -213,11 +209,8 @@ void draw_tile(const Record* centers,
 }
 
 template <bool kStretched>
-auto tile_loop(bool perspective, bool with_depth) {
-  return perspective
-             ? with_depth ? draw_tile<true, true, kStretched> : draw_tile<true, false, kStretched>
-         : with_depth ? draw_tile<false, true, kStretched>
-                      : draw_tile<false, false, kStretched>;
+auto tile_loop(bool perspective) {
+  return perspective ? draw_tile<true, kStretched> : draw_tile<false, kStretched>;
 }
 
 void draw(const Record* centers,
@@ -230,8 +223,7 @@ void draw(const Record* centers,
           float* back,
           std::ptrdiff_t pitch) {
   const auto loop = stretches != nullptr ? tile_loop<true> : tile_loop<false>;
-  loop(view.perspective, depth != nullptr)(centers, stretches, count, view, tile, depth, thickness,
-                                           back, pitch);
+  loop(view.perspective)(centers, stretches, count, view, tile, depth, thickness, back, pitch);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@ namespace pbf::raster {
 SurfaceMaps::SurfaceMaps(int width, int height)
     : depth_(width, height, kNothing),
       thickness_(width, height, 0),
-      deep_thickness_((width + 1) / 2, (height + 1) / 2, 0),
       depth_between_(width, height, kNothing),
       thickness_between_(width, height, 0),
       depth_out_(width, height, kNothing),
@@ -50,32 +49,29 @@ void SurfaceMaps::find(const PointsView& positions,
                        int threads) {
   const FrameBlock frame = frame_block(camera, depth_.width(), depth_.height());
   const SplatView view = splat_view(frame, params);
+  const bool is_picture = purpose == For::picture;
   milliseconds_.clear();
   stage("crowding", [&] {
-    particles_.find(positions, camera, params.neighbor_distance(), params.radius, threads);
+    particles_.find(positions, camera, params.neighbor_distance(), params.radius,
+                    is_picture ? Neighborhoods::Deep::left_out : Neighborhoods::Deep::last, threads);
     if (params.drop_radius) crowding_.find(particles_, threads);
   });
   const Records& particles = particles_.particles();
-  const Index deep = purpose == For::picture ? particles_.deep() : 0;
-  const Index shallow = particles.size() - deep;
   const bool stretched = params.anisotropy > 0;
   if (stretched) {
-    stage("anisotropy", [&] { anisotropy_.find(particles_, shallow, params.anisotropy, threads); });
+    stage("anisotropy", [&] { anisotropy_.find(particles_, particles.size(), params.anisotropy, threads); });
   }
   stage("sphere_depth", [&] {
     if (stretched) {
-      splats_.bin(anisotropy_.centers().data(), shallow, view, threads,
+      splats_.bin(anisotropy_.centers().data(), particles.size(), view, threads,
                   anisotropy_.stretches().data());
     } else {
-      splats_.bin(particles.data(), shallow, view, threads);
+      splats_.bin(particles.data(), particles.size(), view, threads);
     }
-    splats_.draw(view, &depth_, thickness_, &back_, threads);
-    if (deep == 0) return;
-    // Nobody sees these, and where they are there are no edges.
-    const SplatView coarse = halved(view);
-    deep_splats_.bin(particles.data() + shallow, deep, coarse, threads);
-    deep_splats_.draw(coarse, nullptr, deep_thickness_, nullptr, threads);
-    add_halved(deep_thickness_, tiles(), thickness_, threads);
+    splats_.draw(view, depth_, thickness_, back_, threads);
+    if (!is_picture) return;
+    deep_thickness_.find(positions, particles_.places(), view, threads);
+    deep_thickness_.add_to(thickness_, tiles(), threads);
   });
   const Real nearest = nearest_front(particles_.shallow(), params.radius, frame, threads);
   stage("depth_smooth", [&] {
@@ -90,7 +86,7 @@ void SurfaceMaps::find(const PointsView& positions,
           smoothed(filter, iterations, frame, nearest, depth_, depth_between_, depth_out_, threads);
     }
   });
-  if (purpose == For::picture) {
+  if (is_picture) {
     stage("back_smooth", [&] {
       smooth(back_filter(params), frame, tiles(), back_, depth_, depth_between_, back_out_,
              threads);

@@ -5,6 +5,7 @@
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/layer_filter.hpp"
 #include "pbf/render/params.hpp"
+#include "pbf/render/raster/deep_thickness.hpp"
 #include "pbf/render/raster/normal.hpp"
 #include "pbf/render/raster/splats.hpp"
 
@@ -57,9 +58,9 @@ class SurfaceMaps {
   Neighborhoods particles_;
   Crowding crowding_;
   Anisotropy anisotropy_;
-  Splats splats_, deep_splats_;
+  Splats splats_;
+  DeepThickness deep_thickness_;
   Map depth_, thickness_;
-  Map deep_thickness_;  // with half as many pixels to a side
   Map depth_between_, thickness_between_;
   Map depth_out_, thickness_out_;
   Map depth_third_;  // of curvature flow

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "pbf/core/isa.hpp"
+#include "pbf/render/raster/splat_kernels.hpp"
+#include "pbf/render/shares.hpp"
+
+namespace pbf::raster {
+
+/// The inner loop of DeepThickness, for one instruction set.
+struct DeepKernels {
+  /// Cells of level k are 2^k pixels wide, for k from 1 to this.
+  static constexpr int kLevels = 14;
+  /// Cells around the picture that are complete, and those that belong to no pixel.
+  static constexpr int kMargin = 2;
+
+  /// What the particles that are flagged add to the levels; the others add nothing.
+  /// @param xyz  three numbers each, behind the last kMostLanes more particles' that can be read
+  void (*share)(const float* xyz,
+                const std::uint8_t* flags,
+                Index count,
+                const SplatView& view,
+                Shares& shares);
+};
+
+const DeepKernels& deep_kernels(Isa isa);
+
+}  // namespace pbf::raster
