@@ -78,7 +78,9 @@ target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
 
 # The loops over particles and pixels.
 pbf_add_lanes(pbf_render
+  pbf/render/extent_lanes.cpp
   pbf/render/full_cells_lanes.cpp
+  pbf/render/nearest_lanes.cpp
   pbf/render/crowding_lanes.cpp
   pbf/render/shadow_lanes.cpp
   pbf/render/anisotropy_lanes.cpp

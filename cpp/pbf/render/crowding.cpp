@@ -26,28 +26,27 @@ void Crowding::find(Neighborhoods& particles, int threads) {
   wanted_.assign(full.size(), 0);
 
   const auto is_no_body = [&](std::uint32_t k) { return !is_set(body_[k]); };
-  const auto is_wanted = [&](std::uint32_t k) { return is_set(wanted_[k]); };
+  const auto is_wanted = [&](std::uint32_t k) { return m_[k] < 0 && is_set(wanted_[k]); };
   const auto sum = [&](auto k, const Candidates& candidates, CandidateRoom& room) {
     m_[k] = std::min(kernels.sum(candidates, x[k], inverse_s2, room.numbers()), kBodySum);
   };
   // Which of these a thread finds marked depends on the others' pace; the result does not.
-  const auto sum_or_mark = [&](auto k, const Candidates& candidates, CandidateRoom& room) {
+  const auto sum_and_mark = [&](auto k, const Candidates& candidates, CandidateRoom& room) {
     if (kernels.is_beside(candidates, x[k], inverse_s2, full.data())) {
       set(body_[k]);
       return;
     }
     sum(k, candidates, room);
-    if (m_[k] == kBodySum) kernels.mark(candidates, room.numbers(), body_.data());
-  };
-  const auto want_neighbors = [&](auto k, const Candidates& candidates, CandidateRoom&) {
-    kernels.mark_unknown(candidates, x[k], inverse_s2, m_.data(), wanted_.data());
+    // Those around a particle in a body are too; of the others all that are around are needed.
+    const bool in_body = m_[k] == kBodySum;
+    kernels.mark(candidates, room.numbers(), in_body ? kBodyShare : 0,
+                 in_body ? body_.data() : wanted_.data());
   };
   const auto take_largest = [&](auto k, const Candidates& candidates, CandidateRoom&) {
     const float most = kernels.largest(candidates, x[k], inverse_s2, m_.data());
     particles.particles()[particles.place(k)].w = most / kBodySum;
   };
-  for_each_with_candidates(particles, threads, is_no_body, sum_or_mark);
-  for_each_with_candidates(particles, threads, is_no_body, want_neighbors);
+  for_each_with_candidates(particles, threads, is_no_body, sum_and_mark);
   for_each_with_candidates(particles, threads, is_wanted, sum);
   for_each_with_candidates(particles, threads, is_no_body, take_largest);
 }

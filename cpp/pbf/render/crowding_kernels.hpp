@@ -15,20 +15,16 @@ struct CrowdingKernels {
                     const std::uint8_t* flags);
   /// m of the particle, without itself; writes the u_j.
   float (*sum)(const Candidates& candidates, const Record& x, float inverse_s2, float* u);
-  /// Sets flags[j] where u_j is so large that j is as crowded as a particle with m = 9.
-  void (*mark)(const Candidates& candidates, const float* u, std::uint8_t* flags);
-  /// Sets flags[j] where u_j > 0 and m[j] < 0.
-  void (*mark_unknown)(const Candidates& candidates,
-                       const Record& x,
-                       float inverse_s2,
-                       const float* m,
-                       std::uint8_t* flags);
+  /// Sets flags[j] where u_j is larger than this.
+  void (*mark)(const Candidates& candidates, const float* u, float beyond, std::uint8_t* flags);
   /// max_j min(1, 3/2 u_j) m[j], with the particle itself.
   float (*largest)(const Candidates& candidates, const Record& x, float inverse_s2, const float* m);
 };
 
 /// m_i of a particle in a body of fluid.
 inline constexpr float kBodySum = 9;
+/// A particle with u_ij above this is as crowded as a j in a body.
+inline constexpr float kBodyShare = 2.0F / 3;
 
 const CrowdingKernels& crowding_kernels(Isa isa);
 

@@ -33,7 +33,7 @@ bool is_beside(const Candidates& candidates,
   const Vec3Lanes x{particle.x, particle.y, particle.z};
   bool found = false;
   const auto look = [&](std::uint32_t k) PBF_LAMBDA_INLINE {
-    for_each_lane(Lanes(1.0F) <= 1.5F * u_of(j, k, x, inverse_s2),
+    for_each_lane(u_of(j, k, x, inverse_s2) > Lanes(kBodyShare),
                   [&](std::uint32_t lane)
                       PBF_LAMBDA_INLINE { found |= flags[j.entry[k + lane] / 4] != 0; });
   };
@@ -68,28 +68,12 @@ float sum(const Candidates& candidates, const Record& particle, float inverse_s2
   return numbers[0] - 1;  // without itself
 }
 
-void mark(const Candidates& candidates, const float* u, std::uint8_t* flags) {
+void mark(const Candidates& candidates, const float* u, float beyond, std::uint8_t* flags) {
   const Candidates j = candidates;
   for (std::uint32_t k = 0; k < j.count; k += kLanes) {
-    for_each_lane(Lanes(1.0F) <= 1.5F * load_lanes(u + k),
+    for_each_lane(load_lanes(u + k) > Lanes(beyond),
                   [&](std::uint32_t lane)
                       PBF_LAMBDA_INLINE { set(flags + j.entry[k + lane] / 4); });
-  }
-}
-
-void mark_unknown(const Candidates& candidates,
-                  const Record& particle,
-                  float inverse_s2,
-                  const float* m,
-                  std::uint8_t* flags) {
-  const Candidates j = candidates;
-  const Vec3Lanes x{particle.x, particle.y, particle.z};
-  for (std::uint32_t k = 0; k < j.count; k += kLanes) {
-    for_each_lane(u_of(j, k, x, inverse_s2) > Lanes(0.0F),
-                  [&](std::uint32_t lane) PBF_LAMBDA_INLINE {
-                    const std::uint32_t at = j.entry[k + lane] / 4;
-                    if (m[at] < 0) set(flags + at);
-                  });
   }
 }
 
@@ -114,7 +98,7 @@ float largest(const Candidates& candidates,
 }  // namespace
 
 const CrowdingKernels& crowding_kernels() {
-  static constexpr CrowdingKernels table{is_beside, sum, mark, mark_unknown, largest};
+  static constexpr CrowdingKernels table{is_beside, sum, mark, largest};
   return table;
 }
 

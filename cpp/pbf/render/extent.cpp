@@ -1,25 +1,44 @@
 #include "pbf/render/extent.hpp"
 
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/extent_kernels.hpp"
+#include "pbf/render/point_block.hpp"
 
-#include <limits>
 #include <vector>
 
 namespace pbf {
+PBF_TABLE_BY_ISA(ExtentKernels, extent_kernels, extent_kernels)
 namespace {
 
 constexpr double kFarthest = 6;    // [root mean squares]
-constexpr float kBeyond = 1e30F;   // coordinates end here: what is added up stays finite
 constexpr Index kBlock = 1 << 12;  // positions that are added up at a time
-using Four = Eigen::Array4f;       // three numbers in one vector
-using Four64 = Eigen::Array4d;
 
 /// Of a block's coordinates.
 struct Part {
-  Four lower = Four::Constant(std::numeric_limits<float>::max());
-  Four upper = Four::Constant(std::numeric_limits<float>::lowest());
-  Four64 sum = Four64::Zero(), squares = Four64::Zero();
+  Eigen::Array3d lower = Eigen::Array3d::Constant(Extent::kNone);
+  Eigen::Array3d upper = Eigen::Array3d::Constant(-Extent::kNone);
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
+
+  Part& operator+=(const Part& other) {
+    lower = lower.min(other.lower);
+    upper = upper.max(other.upper);
+    sum += other.sum;
+    squares += other.squares;
+    return *this;
+  }
 };
+
+Part part_of(const ExtentPart (&along)[3]) {
+  Part part;
+  for (int axis = 0; axis < 3; ++axis) {
+    const ExtentPart& from = along[axis];
+    part.lower[axis] = static_cast<double>(from.lower);
+    part.upper[axis] = static_cast<double>(from.upper);
+    for (const float sum : from.sums) part.sum[axis] += static_cast<double>(sum);
+    for (const float square : from.squares) part.squares[axis] += static_cast<double>(square);
+  }
+  return part;
+}
 
 }  // namespace
 
@@ -33,55 +52,46 @@ Extent extent(const PointsView& positions, const Eigen::Matrix<Real, 3, 3>& axes
   Extent result;
   const Index n = positions.cols();
   if (n == 0) return result;
-  Eigen::Matrix<Real, 4, 3> rows = Eigen::Matrix<Real, 4, 3>::Zero();
-  rows.topRows<3>() = axes;
-  const Four along_x = rows.col(0), along_y = rows.col(1), along_z = rows.col(2);
-  const auto at = [&](Index i) -> Four {
-    const Four p =
-        along_x * positions(0, i) + along_y * positions(1, i) + along_z * positions(2, i);
-    return p.max(-kBeyond).min(kBeyond);
-  };
+  constexpr Real kBeyond = ExtentAxes::kBeyond;
+  const Vec3 first = (axes * positions.col(0)).cwiseMax(-kBeyond).cwiseMin(kBeyond);
+  ExtentAxes to{};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int k = 0; k < 3; ++k) to.axes[axis][k] = axes(axis, k);
+    to.origin[axis] = first[axis];
+    to.least[axis] = -kBeyond;
+    to.most[axis] = kBeyond;
+  }
+  const ExtentKernels& kernels = extent_kernels(chosen_isa());
   std::vector<Part> parts(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
-  const auto for_parts = [&](auto&& add) {
-    parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
-      Part part;
-      for (Index i = first; i < last; ++i) add(part, at(i));
-      parts[static_cast<std::size_t>(first / kBlock)] = part;
+  const auto measured = [&] {
+    parallel_chunks(n, threads, kBlock, [&](Index begin, Index end) {
+      thread_local std::vector<Real> room;
+      ExtentPart along[3];
+      kernels.measure(point_block(positions, begin, end, room), end - begin, to, along);
+      parts[static_cast<std::size_t>(begin / kBlock)] = part_of(along);
     });
     Part all;
-    for (const Part& part : parts) {
-      all.lower = all.lower.min(part.lower);
-      all.upper = all.upper.max(part.upper);
-      all.sum += part.sum;
-      all.squares += part.squares;
-    }
+    for (const Part& part : parts) all += part;
     return all;
   };
-  const Four64 origin = at(0).cast<double>();
-  Part all = for_parts([&](Part& part, const Four& p) {
-    part.lower = part.lower.min(p);
-    part.upper = part.upper.max(p);
-    const Four64 from_origin = p.cast<double>() - origin;
-    part.sum += from_origin;
-    part.squares += from_origin.square();
-  });
-  const Four64 mean = all.sum / static_cast<double>(n);
-  const Four64 variance = all.squares / static_cast<double>(n) - mean.square();
-  result.mean = (origin + mean).head<3>();
+  Part all = measured();
+  const Eigen::Array3d origin = first.cast<double>().array();
+  const Eigen::Array3d mean = all.sum / static_cast<double>(n);
+  const Eigen::Array3d variance = all.squares / static_cast<double>(n) - mean.square();
+  result.mean = origin + mean;
   // Rounding must not leave out one of few that are all alike.
-  const Four64 limit = kFarthest * variance.max(0).sqrt() + 1e-6 * (origin + mean).abs();
-  result.limit = limit.head<3>();
-  const Four least = (origin + mean - limit).cast<float>();
-  const Four most = (origin + mean + limit).cast<float>();
-  if ((all.lower < least).any() || (all.upper > most).any()) {
-    all = for_parts([&](Part& part, const Four& p) {
-      const auto counts = least <= p && p <= most;
-      part.lower = counts.select(part.lower.min(p), part.lower);
-      part.upper = counts.select(part.upper.max(p), part.upper);
-    });
+  result.limit = kFarthest * variance.max(0).sqrt() + 1e-6 * result.mean.abs();
+  const Eigen::Array3f least = (result.mean - result.limit).cast<Real>();
+  const Eigen::Array3f most = (result.mean + result.limit).cast<Real>();
+  if ((all.lower < least.cast<double>()).any() || (all.upper > most.cast<double>()).any()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      to.least[axis] = least[axis];
+      to.most[axis] = most[axis];
+    }
+    all = measured();
   }
-  result.lower = all.lower.head<3>().cast<double>();
-  result.upper = all.upper.head<3>().cast<double>();
+  result.lower = all.lower;
+  result.upper = all.upper;
   return result;
 }
 

@@ -50,11 +50,15 @@ void FullCells::for_inner(int threads, F&& f) const {
   });
 }
 
-void FullCells::expose(const std::function<bool(const Vec3&)>& is_seen, int threads) {
+void FullCells::expose(const Vec3& direction, Real from, int threads) {
+  const auto middle = [&](const Vec3& cell) -> Vec3 {
+    return side_ * (first_ + cell + Vec3::Constant(0.5F));
+  };
+  const Vec3 nearest = (direction.array() > 0).select(Vec3::Zero(), sides_.cast<Real>().matrix());
+  if (direction.dot(middle(nearest)) > from) return;
   for_inner(threads, [&](std::size_t k, Index x, Index y, Index z) {
-    const Vec3 number(static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z));
-    const Vec3 middle = side_ * (first_ + number + Vec3::Constant(0.5F));
-    if (places_[k] == Place::deep && is_seen(middle)) places_[k] = Place::full;
+    const Vec3 cell(static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z));
+    if (places_[k] == Place::deep && direction.dot(middle(cell)) <= from) places_[k] = Place::full;
   });
 }
 

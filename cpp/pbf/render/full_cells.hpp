@@ -3,7 +3,6 @@
 #include "pbf/core/types.hpp"
 
 #include <array>
-#include <functional>
 #include <vector>
 
 namespace pbf {
@@ -21,8 +20,8 @@ class FullCells {
 
   /// @param side  of the cells [m]
   void find(const PointsView& positions, Real side, int threads);
-  /// Makes full ones of the deep cells of which `is_seen` says so, by their middles.
-  void expose(const std::function<bool(const Vec3& middle)>& is_seen, int threads);
+  /// Makes full ones of the deep cells whose middle x is not behind a plane: direction · x <= from.
+  void expose(const Vec3& direction, Real from, int threads);
 
   /// Of particle i.
   [[nodiscard]] Place operator[](Index i) const {

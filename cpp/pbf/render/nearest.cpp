@@ -1,41 +1,32 @@
 #include "pbf/render/nearest.hpp"
 
 #include "pbf/core/parallel.hpp"
+#include "pbf/render/nearest_kernels.hpp"
+#include "pbf/render/point_block.hpp"
+#include "pbf/render/raster/terms.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace pbf {
-namespace {
-
-struct Nearest {
-  Real depth = std::numeric_limits<Real>::max();
-  Nearest& operator+=(const Nearest& other) {
-    depth = std::min(depth, other.depth);
-    return *this;
-  }
-};
-
-}  // namespace
+PBF_TABLE_BY_ISA(NearestKernels, nearest_kernels, nearest_kernels)
 
 Real nearest_front(const PointsView& positions, Real radius, const FrameBlock& frame, int threads) {
-  const Eigen::Map<const Eigen::Matrix4f> view(frame.view.data());
-  const auto [half_width, half_height, near, far] = frame.lens;
-  const bool perspective = frame.size[2] > 0.5F;
+  constexpr Index kBlock = 1 << 12;
+  const raster::FrameTerms terms = raster::frame_terms(frame);
   // A sphere reaches over a side of the picture by its radius, measured across that side.
-  const Real beyond_x = radius * (perspective ? std::hypot(1.0F, half_width) : 1);
-  const Real beyond_y = radius * (perspective ? std::hypot(1.0F, half_height) : 1);
-  const Nearest found = parallel_sum<Nearest>(positions.cols(), threads, [&](Index i) -> Nearest {
-    const Vec3 center = view.topLeftCorner<3, 3>() * positions.col(i) + view.topRightCorner<3, 1>();
-    const Real depth = -center.z();
-    const Real spread = perspective ? depth : 1;
-    const bool seen = depth + radius > near && depth - radius < far &&
-                      std::abs(center.x()) < half_width * spread + beyond_x &&
-                      std::abs(center.y()) < half_height * spread + beyond_y;
-    return seen ? Nearest{std::max(depth - radius, near)} : Nearest{};
+  const auto across = [&](Real half) { return terms.perspective ? std::hypot(1.0F, half) : 1; };
+  const Real beyond[] = {radius * across(terms.half_width), radius * across(terms.half_height)};
+  const NearestKernels& kernels = nearest_kernels(chosen_isa());
+  const Index n = positions.cols();
+  std::vector<Real> nearest(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
+  parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
+    thread_local std::vector<Real> room;
+    nearest[static_cast<std::size_t>(first / kBlock)] = kernels.nearest(
+        point_block(positions, first, last, room), last - first, radius, beyond, terms);
   });
-  return std::min(found.depth, far);
+  return std::accumulate(nearest.begin(), nearest.end(), terms.far, [](Real a, Real b) { return std::min(a, b); });
 }
 
 }  // namespace pbf

@@ -3,6 +3,8 @@
 #include "pbf/core/parallel.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -12,7 +14,9 @@ namespace {
 using Place = FullCells::Place;
 
 /// Particles that are sorted out at a time.
-constexpr Index kBlock = 1 << 14;
+constexpr Index kBlock = 1 << 12;
+/// [m]
+constexpr Real kAll = std::numeric_limits<Real>::max();
 
 /// How many of the particles before a block are to be sorted, and how many are deep.
 struct Starts {
@@ -55,22 +59,27 @@ void Neighborhoods::part(const PointsView& positions, const Camera& camera, Deep
   ids_.resize(static_cast<std::size_t>(sum.near));
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     Starts& at = starts[static_cast<std::size_t>(first / kBlock)];
-    Index shallow = first - at.deep;
-    Index last_deep = shallow_ + at.deep;
+    std::array<std::uint32_t, kBlock> others;  // found without a branch that would be mispredicted
+    Index count = 0;
     for (Index i = first; i < last; ++i) {
-      const Place place = places_[static_cast<std::size_t>(i)];
-      if (place == Place::deep && deep == Deep::left_out) continue;
-      const Record particle{positions(0, i), positions(1, i), positions(2, i), 1};
-      if (place == Place::deep) {
-        particles_[last_deep++] = particle;
-        continue;
-      }
-      if (is_sorted(i)) {
-        const Vec3 x = positions.col(i) - eye;
-        near_[at.near] = {x.x(), x.y(), x.z(), place == Place::full ? 1.0F : 0.0F};
-        ids_[static_cast<std::size_t>(at.near++)] = static_cast<std::uint32_t>(shallow);
-      }
-      particles_[shallow++] = particle;
+      others[count] = static_cast<std::uint32_t>(i);
+      count += places_[static_cast<std::size_t>(i)] != Place::deep ? 1 : 0;
+    }
+    Index shallow = first - at.deep;
+    for (Index k = 0; k < count; ++k, ++shallow) {
+      const Index i = others[k];
+      particles_[shallow] = {positions(0, i), positions(1, i), positions(2, i), 1};
+      if (!is_sorted(i)) continue;
+      const Vec3 x = positions.col(i) - eye;
+      const bool is_full = places_[static_cast<std::size_t>(i)] == Place::full;
+      near_[at.near] = {x.x(), x.y(), x.z(), is_full ? 1.0F : 0.0F};
+      ids_[static_cast<std::size_t>(at.near++)] = static_cast<std::uint32_t>(shallow);
+    }
+    if (deep == Deep::left_out) return;
+    Index to = shallow_ + at.deep;
+    for (Index i = first; i < last; ++i) {
+      if (places_[static_cast<std::size_t>(i)] != Place::deep) continue;
+      particles_[to++] = {positions(0, i), positions(1, i), positions(2, i), 1};
     }
   });
 }
@@ -98,11 +107,8 @@ void Neighborhoods::find(const PointsView& positions,
     cells_.find(positions, 0.6F * s, threads);
     // Only large sprites hide what is behind them, and none what the near plane cuts open.
     const Vec3 ahead = (camera.target - camera.eye).normalized();
-    const Real open_to = camera.near + 2 * s;
-    const auto is_seen = [&](const Vec3& x) {
-      return radius < 0.4F * s || ahead.dot(x - camera.eye) <= open_to;
-    };
-    cells_.expose(is_seen, threads);
+    const Real open_to = radius < 0.4F * s ? kAll : camera.near + 2 * s;
+    cells_.expose(ahead, ahead.dot(camera.eye) + open_to, threads);
   }
   part(positions, camera, deep, threads);
   sort(threads);

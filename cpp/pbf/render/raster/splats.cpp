@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -106,11 +107,13 @@ void Splats::bin(
       }
     }
   };
+  std::atomic<bool> has_large{false};
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     kernels.project(particles, stretched ? all_.stretches.data() : nullptr, first, last, view,
                     all_.centers.data(), boxes_.data());
     std::uint32_t* count = places_.data() + static_cast<std::size_t>(first / kBlock) * tiles;
     for (Index i = first; i < last; ++i) for_tiles(i, [&](std::size_t tile) { ++count[tile]; });
+    if (std::any_of(boxes_.begin() + first, boxes_.begin() + last, is_large)) has_large = true;
   });
   starts_.resize(tiles + 1);
   std::uint32_t sum = 0;
@@ -125,7 +128,8 @@ void Splats::bin(
     }
   }
   starts_[tiles] = sum;
-  find_large();
+  large_.clear();
+  if (has_large) find_large();
   binned_.resize(sum, stretched);
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     std::uint32_t* place = places_.data() + static_cast<std::size_t>(first / kBlock) * tiles;
@@ -136,7 +140,6 @@ void Splats::bin(
 }
 
 void Splats::find_large() {
-  large_.clear();
   TileBox all{std::numeric_limits<std::int16_t>::max(), -1,
               std::numeric_limits<std::int16_t>::max(), -1};
   for (Index i = 0; i < all_.centers.size(); ++i) {
