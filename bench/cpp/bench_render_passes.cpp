@@ -116,9 +116,13 @@ void frames(benchmark::internal::Benchmark* benchmark) {
       ->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(draw<CpuRenderer>, cpp, 0)->Apply(frames);
-BENCHMARK_CAPTURE(draw<CpuRenderer>, cpp_ellipsoids, 1)->Apply(frames);
-BENCHMARK_CAPTURE(draw<FluidRenderer>, glsl, 0)->Apply(frames);
+void cpp(benchmark::State& state) { draw<CpuRenderer>(state, 0); }
+void cpp_ellipsoids(benchmark::State& state) { draw<CpuRenderer>(state, 1); }
+void glsl(benchmark::State& state) { draw<FluidRenderer>(state, 0); }
+
+BENCHMARK(cpp)->Apply(frames);
+BENCHMARK(cpp_ellipsoids)->Apply(frames);
+BENCHMARK(glsl)->Apply(frames);
 
 }  // namespace
 }  // namespace pbf::bench
