@@ -59,3 +59,7 @@ vec2 pixel_of(vec3 p) {
 
 // Pixels that a length of one meter covers at a depth.
 float pixels_per_meter(float d) { return u_size.z > 0.5 ? u_size.w / d : u_size.w; }
+
+// Pixels that rays one radian apart are from one another. Parallel rays: as if the picture were
+// seen from as far away as it is high.
+float pixels_per_radian() { return u_size.z > 0.5 ? u_size.w : u_size.y; }

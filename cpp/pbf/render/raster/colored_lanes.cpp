@@ -120,7 +120,7 @@ void spheres(
 /// Depth of the surface at the pixels of a coarser map: the front of the pixels around; where there
 /// is none, far in front of everything.
 PBF_INLINE Lanes surface_around(const SplatView& view, const Texels& surface, int x, int y) {
-  constexpr float kNone = -1e9F;
+  constexpr float kNone = -1e30F;
   const auto low = [](Lanes at, float size, int texels) PBF_LAMBDA_INLINE {
     const Lanes place = at * Lanes(static_cast<float>(texels) / size) - Lanes(0.5F);
     return clamp(to_ints(place), 0, texels - 1);

@@ -61,6 +61,10 @@ PBF_INLINE PixelLanes pixel_of(const FrameTerms& frame, const Vec3Lanes& p) {
 PBF_INLINE Lanes pixels_per_meter(const FrameTerms& frame, Lanes d) {
   return frame.perspective ? Lanes(frame.pixels_per_meter) / d : Lanes(frame.pixels_per_meter);
 }
+/// Parallel rays: as if the picture were seen from as far away as it is high.
+PBF_INLINE float pixels_per_radian(const FrameTerms& frame) {
+  return frame.perspective ? frame.pixels_per_meter : frame.height;
+}
 /// Length of a pixel's side at a depth [m].
 PBF_INLINE Lanes pixel_at(const FrameTerms& frame, Lanes d) {
   const Lanes unit(1 / frame.pixels_per_meter);
