@@ -25,9 +25,6 @@ uniform vec3 u_eye;             // world space [m]
 uniform vec3 u_floor_x;         // unit vectors along the floor
 uniform vec3 u_floor_y;
 
-const float NOWHERE = 1e30;  // how far it is to what a ray does not meet [m]
-bool is_met(float way) { return way < 1e29; }
-
 const vec3 HORIZON = vec3(0.66, 0.73, 0.79);
 const vec3 ZENITH = vec3(0.08, 0.20, 0.42);
 const vec3 FLOOR = vec3(0.50, 0.50, 0.50);

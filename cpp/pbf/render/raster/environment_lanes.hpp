@@ -19,9 +19,6 @@ PBF_INLINE RgbaLanes select(Mask mask, const RgbaLanes& a, const RgbaLanes& b) {
   return {select(mask, a.rgb, b.rgb), select(mask, a.a, b.a)};
 }
 
-inline constexpr float kNowhere = 1e30F;  // how far it is to what a ray does not meet [m]
-PBF_INLINE Mask is_met(Lanes way) { return way < Lanes(1e29F); }
-
 PBF_INLINE Vec3Lanes horizon() { return {0.66F, 0.73F, 0.79F}; }
 PBF_INLINE Vec3Lanes zenith() { return {0.08F, 0.20F, 0.42F}; }
 PBF_INLINE Vec3Lanes sunshine() { return {1.0F, 0.93F, 0.80F}; }

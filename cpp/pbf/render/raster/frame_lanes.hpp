@@ -1,11 +1,13 @@
 #pragma once
 
+#include "pbf/render/affine_depth.hpp"
 #include "pbf/render/raster/glsl_lanes.hpp"
 
 /// Of glsl/frame.glsl, where it is explained, what the loops over pixels need.
 namespace pbf::PBF_ISA_NAMESPACE {
 
-inline constexpr float kLeastSurface = -1e29F;  // affine depth
+inline constexpr float kNowhere = 1e30F;  // how far it is to what a ray does not meet [m]
+PBF_INLINE Mask is_met(Lanes way) { return way < Lanes(1e29F); }
 
 using raster::FrameTerms;
 
@@ -25,7 +27,7 @@ PBF_INLINE Lanes nearer(bool perspective, Lanes a, float length) {
 }
 
 /// Of a far side there may be none, which is as far as can be to either side.
-PBF_INLINE Mask is_surface(Lanes a) { return abs(a) < Lanes(1e29F); }
+PBF_INLINE Mask is_surface(Lanes a) { return abs(a) < Lanes(-kLeastSurface); }
 PBF_INLINE Lanes depth_of(const FrameTerms& frame, Lanes a) {
   return frame.perspective ? Lanes(1) / a : -a;
 }
