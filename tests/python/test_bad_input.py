@@ -67,6 +67,22 @@ def test_masked_numbers_are_no_data(sim):
 
 
 @pytest.mark.parametrize(
+    ("kernel", "distance", "exponent"),
+    [("wendland", 0.99, 4), ("poly6_spiky", 0.7, 4), ("cubic_spline", 1 - 1e-7, 16)],
+)
+def test_repulsion_that_would_blow_up_fluid_at_rest_is_rejected(kernel, distance, exponent):
+    fluid = pbf.FluidParams(spacing=0.05, kernel=kernel)
+    wrong = pbf.SolverParams(tensile_distance=distance, tensile_exponent=exponent)
+    message = "tensile_distance = .* fluid at rest would repel itself .* a smaller distance"
+    with pytest.raises(InvalidParameter, match=message):
+        pbf.Simulation(fluid, wrong)
+    right = pbf.Simulation(fluid, wrong.replace(tensile_strength=0))
+    with pytest.raises(InvalidParameter, match=message):
+        right.solver = wrong
+    assert right.solver.tensile_strength == 0
+
+
+@pytest.mark.parametrize(
     ("velocities", "message"),
     [
         (np.zeros((2, 3)), "velocities: 2 rows, but positions has 1"),
