@@ -14,6 +14,7 @@ add_library(pbf_render STATIC
   pbf/gl/framebuffer.cpp
   pbf/gl/program.cpp
   pbf/gl/draw.cpp
+  pbf/gl/error.cpp
   pbf/render/camera.cpp
   pbf/render/checks.cpp
   pbf/render/cpu_renderer.cpp

@@ -19,9 +19,9 @@ uniform sampler2D u_tint;          // weight times color and weight (tint.frag)
 uniform int u_has_tint;            // 1: the fluid has its particles' colors
 layout(location = 0) out vec4 o_color;
 
-const float SPREAD = 3.0;    // of rays from a body's surface, in that of a pixel
-const float MOST_WAY = 1e3;  // of a ray in the fluid [m]
-const int MESH_STEPS = 24;   // of a ray that looks for a mesh
+const float SPREAD = 3.0;       // of rays from a body's surface, in that of a pixel
+const float LEAST_WAY = 1e-4;   // in the fluid: others count as this [sprites' radii]
+const int MESH_STEPS = 24;      // of a ray that looks for a mesh
 
 // Share of unpolarized light that a smooth dielectric mirrors (Fresnel); c is the cosine of
 // incidence.
@@ -39,20 +39,20 @@ vec3 transmittance(float way) { return exp(-u_absorption * way); }
 // Fluid that stands on the floor does not curl in below it, as its lowest spheres do.
 vec3 upright_at_floor(vec3 n, vec3 position) {
   vec3 up = mat3(u_view) * u_up;
-  float height = u_has_floor == 1 ? height_above_floor(position) / u_radius : 1e9;
+  float height = u_has_floor == 1 ? height_above_floor(position) / u_radius : NOWHERE;
   float nearness = 1.0 - smoothstep(1.0, 3.0, height);
   return normalize(n - nearness * min(dot(n, up), 0.0) * up);
 }
 
-// How far it is to the tank's wall from inside: 1e9 if there is none. Floor and surface are none.
+// How far it is to the tank's wall from inside. Floor and surface are none.
 float distance_to_wall(vec3 point, vec3 direction, out vec3 outward) {
   vec3 side = mix(vec3(-1.0), vec3(1.0), step(0.0, direction));
   vec3 face = mix(u_tank_lower, u_tank_upper, step(0.0, direction));
   vec3 way = (face - clamp(point, u_tank_lower, u_tank_upper)) / (side * max(abs(direction), 1e-6));
-  way += 1e9 * step(0.9, abs(u_up));
+  way += NOWHERE * step(0.9, abs(u_up));
   float nearest = min(way.x, min(way.y, way.z));
   outward = side * vec3(lessThanEqual(way, vec3(nearest)));
-  return u_has_tank == 1 ? nearest : 1e9;
+  return u_has_tank == 1 ? nearest : NOWHERE;
 }
 
 // How far it is to the floor or the tank's bottom.
@@ -60,7 +60,7 @@ float distance_to_ground(vec3 point, vec3 direction) {
   float down = -dot(direction, u_up);
   float bottom = min(dot(u_tank_lower, u_up), dot(u_tank_upper, u_up));
   bool ends = u_has_tank == 1 && down > 1e-4;
-  float to_bottom = ends ? max(dot(point, u_up) - bottom, 0.0) / down : 1e9;
+  float to_bottom = ends ? max(dot(point, u_up) - bottom, 0.0) / down : NOWHERE;
   return min(to_bottom, distance_to_floor(point, direction));
 }
 
@@ -98,7 +98,8 @@ void follow_to_wall_or_floor(inout Ray ray) {
     vec3 outward;
     float to_floor = distance_to_ground(ray.at, ray.direction);
     float to_wall = distance_to_wall(ray.at, ray.direction, outward);
-    float way = inside ? min(min(to_floor, to_wall), MOST_WAY) : 0.0;
+    float to_end = min(to_floor, to_wall);
+    float way = inside && is_met(to_end) ? to_end : 0.0;
     ray.way += k == 0 || !inside ? way : way * share_in_fluid(ray, way);
     ray.at += way * ray.direction;
     vec3 bent = refract(ray.direction, -outward, u_refractive_index);
@@ -126,7 +127,7 @@ vec3 back_normal(ivec2 pixel, float depth) {
   float most = 2.0 * right.x;
   right.z = clamp(right.z, -most, most);
   up.z = clamp(up.z, -most, most);
-  return normalize(cross(right, up) + vec3(0.0, 0.0, 1e-12));
+  return normalize(cross(right, up) + vec3(0.0, 0.0, 1e-9 * u_radius * u_radius));
 }
 
 // Out of the fluid through a surface whose normal is against the ray. Where it comes too flat for
@@ -171,11 +172,12 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   vec3 twice = to_world(refract(view, n, eta * eta));
   // Without what spheres stick out by before and behind, and through the wall.
   float inner = min(straight - min(1.2 * u_radius, 0.5 * straight), to_end);
-  float filled = thickness / max(inner, 1e-6);
+  float least = LEAST_WAY * u_radius;
+  float filled = thickness / max(inner, least);
   float solid = body * smoothstep(0.55, 0.9, filled);
   is_bound *= step(1.0, body) * smoothstep(0.35, 0.75, filled);
   solid = max(solid, is_bound);
-  float length = mix(thickness, way * thickness / max(straight, 1e-6), solid);
+  float length = mix(thickness, way * thickness / max(straight, least), solid);
   return Ray(mix(position + way * once, bound.at, is_bound),
              normalize(mix(mix(twice, through, solid), bound.direction, is_bound)),
              mix(length, bound.way * min(filled, 1.0), is_bound),
@@ -189,7 +191,7 @@ float behind_mesh(vec3 p, vec3 point, out vec3 light) {
   ivec2 pixel = ivec2(clamp(pixel_of(point), vec2(0.0), u_size.xy - 1.0));
   float a = texelFetch(u_mesh_depth, pixel, 0).r;
   light = texelFetch(u_mesh_light, pixel, 0).rgb;
-  return is_surface(a) && depth_of(a) > -p.z ? -point.z - depth_of(a) : -1e9;
+  return is_surface(a) && depth_of(a) > -p.z ? -point.z - depth_of(a) : -NOWHERE;
 }
 
 // Where a ray from a point in eye space meets a mesh, as far as the picture knows: with the first
@@ -264,7 +266,7 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   mirrored *= u_has_tint == 1 ? 0.3 : 1.0;
   vec3 mirror = to_world(reflect(view, n));
   // A drop turns rays that are a pixel apart by a pixel's share of its radius.
-  float of_drop = pixels_per_meter(1.0) / (u_drop_radius * pixels_per_meter(-p.z));
+  float of_drop = pixels_per_radian() / (u_drop_radius * pixels_per_meter(-p.z));
   float spread = mix(max(of_drop, SPREAD), SPREAD, body);
   vec3 reflection = environment(MIRRORED(mirror, spread), position, mirror, -p.z, spread).rgb;
   Ray ray = refracted(p, view, n, thickness, body);
@@ -272,7 +274,7 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
 #ifdef MESHES
   vec3 light;
   float way;
-  float farthest = 1.3 * max(ray.way, to_mesh < 1e8 ? to_mesh : 0.0);
+  float farthest = 1.3 * max(ray.way, is_met(to_mesh) ? to_mesh : 0.0);
   if (meets_mesh(p, mat3(u_view) * ray.first, farthest, way, light)) {
     behind = vec4(light, 1.0);
     ray.way = min(ray.way, way);
@@ -319,8 +321,8 @@ float cut_at_walls(inout vec3 p, vec3 view, float back, float body, inout vec3 n
   if (u_has_tank == 0 || body < 1.0 || is_outside) return 1.0;
   vec3 ahead = step(0.0, direction);
   vec3 speed = mix(vec3(-1.0), vec3(1.0), ahead) * max(abs(direction), 1e-5);
-  vec3 to_near = (mix(u_tank_upper, u_tank_lower, ahead) - point) / speed - 1e9 * is_open;
-  vec3 to_far = (mix(u_tank_lower, u_tank_upper, ahead) - point) / speed + 1e9 * is_open;
+  vec3 to_near = (mix(u_tank_upper, u_tank_lower, ahead) - point) / speed - NOWHERE * is_open;
+  vec3 to_far = (mix(u_tank_lower, u_tank_upper, ahead) - point) / speed + NOWHERE * is_open;
   float enters = max(to_near.x, max(to_near.y, to_near.z));
   float leaves = min(to_far.x, min(to_far.y, to_far.z));
   // It stands at the far wall as at the floor: up to the glass, without curling away from it.
@@ -352,7 +354,7 @@ void main() {
   // Where a lone sprite thins out there is less than a particle: fading it takes the beads off the
   // outline.
   share *= smoothstep(0.1, 0.8, thickness / u_sprite_thickness);
-  float to_mesh = 1e9;
+  float to_mesh = NOWHERE;
 #ifdef MESHES
   // Meshes hide the fluid behind them.
   float mesh = texelFetch(u_mesh_depth, pixel, 0).r;

@@ -40,7 +40,7 @@ vec4 mapped(vec3 direction, float spread) {
   float right = dot(direction, u_floor_x);
   float around = atan(right, ahead) / 6.2831853 + 0.5;
   float above = 1.0 - acos(clamp(dot(direction, u_up), -1.0, 1.0)) / 3.1415927;
-  float texels = spread * u_map_width / (6.2831853 * pixels_per_meter(1.0));
+  float texels = spread * u_map_width / (6.2831853 * pixels_per_radian());
   return vec4(textureLod(u_map, vec2(around, above), log2(max(texels, 1.0))).rgb, 1.0);
 }
 #endif
@@ -111,7 +111,7 @@ bool is_below_floor(vec3 point) {
 }
 float distance_to_floor(vec3 point, vec3 direction) {
   float down = -dot(direction, u_up);
-  return u_has_floor == 1 && down > 1e-4 ? max(height_above_floor(point), 0.0) / down : 1e9;
+  return u_has_floor == 1 && down > 1e-4 ? max(height_above_floor(point), 0.0) / down : NOWHERE;
 }
 
 // Light that comes against a direction (unit vector) to a point.
@@ -120,7 +120,7 @@ float distance_to_floor(vec3 point, vec3 direction) {
 // @param spread     how much wider than a pixel the bundle of rays is, behind a curved surface
 vec4 environment(vec4 beyond, vec3 point, vec3 direction, float travelled, float spread) {
   float way = distance_to_floor(point, direction);
-  if (way > 1e8 || height_above_floor(u_eye) < 0.0) return beyond;
+  if (!is_met(way) || height_above_floor(u_eye) < 0.0) return beyond;
   float down = -dot(direction, u_up);
   // A pixel on the floor: long along the ray where it comes in flat.
   float wide = 0.7 * spread / pixels_per_meter(travelled + way);

@@ -16,8 +16,12 @@ layout(std140) uniform Frame {
 
 // Affine depth where there is no fluid; of far sides, whose least is looked for, its opposite.
 const float NOTHING = -1e30;
+const float LEAST_SURFACE = -1e29;  // less than that of any surface
+// How far it is to what a ray does not meet [m].
+const float NOWHERE = 1e30;
 
-bool is_surface(float a) { return abs(a) < 1e29; }
+bool is_surface(float a) { return abs(a) < -LEAST_SURFACE; }
+bool is_met(float way) { return way < 1e29; }
 float affine_depth(float d) { return u_size.z > 0.5 ? 1.0 / d : -d; }
 float depth_of(float a) { return u_size.z > 0.5 ? 1.0 / a : -a; }
 
@@ -59,3 +63,7 @@ vec2 pixel_of(vec3 p) {
 
 // Pixels that a length of one meter covers at a depth.
 float pixels_per_meter(float d) { return u_size.z > 0.5 ? u_size.w / d : u_size.w; }
+
+// Pixels that rays one radian apart are from one another. Parallel rays: as if the picture were
+// seen from as far away as it is high.
+float pixels_per_radian() { return u_size.z > 0.5 ? u_size.w : u_size.y; }

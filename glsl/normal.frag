@@ -27,7 +27,7 @@ struct Tangent {
   bool lone;   // on neither
 };
 
-// From differences of positions to both sides, each weighted by 1/(dz^2 + pixel^2)^2. Both are
+// From differences of positions to both sides, each weighted by 1/(1 + (dz/pixel)^2)^2. Both are
 // tangent to a plane, so the normal of a plane is exact; on a gentle slope they count the same,
 // which is the central difference; at a silhouette the smaller step wins.
 // A strand or a groove of a single pixel faces the viewer: the smaller of its two steps is no slope
@@ -38,8 +38,8 @@ Tangent tangent(ivec2 pixel, ivec2 axis, vec3 p, float width, float reach) {
   vec3 next = position(pixel + axis, has_next) - p;
   vec3 previous = p - position(pixel - axis, has_previous);
   float floor2 = width * width;
-  float w_next = has_next ? 1.0 / (next.z * next.z + floor2) : 0.0;
-  float w_previous = has_previous ? 1.0 / (previous.z * previous.z + floor2) : 0.0;
+  float w_next = has_next ? floor2 / (next.z * next.z + floor2) : 0.0;
+  float w_previous = has_previous ? floor2 / (previous.z * previous.z + floor2) : 0.0;
   bool strand = has_next == has_previous && next.z * previous.z <= 0.0 &&
                 min(abs(next.z), abs(previous.z)) > u_range;
   bool on_next = has_next && abs(next.z) < reach;
@@ -50,14 +50,14 @@ Tangent tangent(ivec2 pixel, ivec2 axis, vec3 p, float width, float reach) {
                  !(on_next && on_previous), !(on_next || on_previous));
 }
 
-// Normal of the sphere of a radius through a point and two more, at steps a and b from it: their
+// Normal of the sphere of radius 1 through a point and two more, at steps a and b from it: their
 // circle's center lies at c, the sphere's behind it as seen along `view`. 0 if there is none.
-vec3 sphere_normal(vec3 a, vec3 b, vec3 view, float radius) {
+vec3 sphere_normal(vec3 a, vec3 b, vec3 view) {
   vec3 across = cross(a, b);
   vec3 c = cross(dot(a, a) * b - dot(b, b) * a, across) / (2.0 * dot(across, across));
-  float height2 = radius * radius - dot(c, c);
+  float height2 = 1.0 - dot(c, c);
   vec3 n = -sign(dot(across, view)) * normalize(across);
-  return height2 > 0.0 ? (sqrt(height2) * n - c) / radius : vec3(0.0);
+  return height2 > 0.0 ? sqrt(height2) * n - c : vec3(0.0);
 }
 
 // What eight neighbors around and the pixel say, weighted as the bilateral filter does.
@@ -115,8 +115,9 @@ vec3 rim_normal(ivec2 pixel, vec3 p, vec3 n, int reach) {
   if (known == 0.0 || gone == 0.0) return n;
   vec2 rise = (spread.zx * slope - spread.y * slope.yx) / determinant;  // to the next pixels
   vec2 at = gl_FragCoord.xy;
-  vec3 plane = normalize(cross(eye_position(at + vec2(1.0, 0.0), depth_of(a + rise.x)) - p,
-                               eye_position(at + vec2(0.0, 1.0), depth_of(a + rise.y)) - p));
+  vec3 right = eye_position(at + vec2(1.0, 0.0), depth_of(a + rise.x)) - p;
+  vec3 above = eye_position(at + vec2(0.0, 1.0), depth_of(a + rise.y)) - p;
+  vec3 plane = normalize(cross(right / u_radius, above / u_radius));
   vec3 view = normalize(ray_direction(at));
   float cosine = clamp(-dot(plane, view), 0.0, 1.0);
   vec3 across = plane + cosine * view;
@@ -145,7 +146,7 @@ void main() {
   bool is_drop = crowding < 0.5;  // two thirds are a body's edge, or a sheet
   if (is_drop && (x.ends || y.ends) && !x.lone && !y.lone) {
     vec3 view = ray_direction(gl_FragCoord.xy);
-    vec3 own = sphere_normal(x.step, y.step, view, radius);
+    vec3 own = sphere_normal(x.step / radius, y.step / radius, view);
     n = dot(own, view) < 0.0 ? own : n;
   }
   int reach = int(min(u_radius / width, MOST_REACH));

@@ -50,7 +50,7 @@ float smoothed(ivec2 pixel, float value, float radius, Window window) {
   ivec2 size = textureSize(u_values, 0);
   int at = pixel.x * u_axis.x + pixel.y * u_axis.y;
   int last = size.x * u_axis.x + size.y * u_axis.y - 1;
-  float empty = u_thickness == 1 ? 0.0 : -1e29;
+  float empty = u_thickness == 1 ? 0.0 : LEAST_SURFACE;
   float stride = stride_of(radius);
   float reach = radius / stride;
   int taps = int(ceil(reach));
@@ -70,8 +70,8 @@ float smoothed(ivec2 pixel, float value, float radius, Window window) {
     float fade = clamp(reach + 1.0 - x, 0.0, 1.0);
     vec2 neighbors = vec2(texelFetch(u_values, pixel + u_axis * min(offset, last - at), 0).r,
                           texelFetch(u_values, pixel - u_axis * min(offset, at), 0).r);
-    bvec2 exist = bvec2(offset <= last - at && neighbors.x > empty && neighbors.x < 1e29,
-                        offset <= at && neighbors.y > empty && neighbors.y < 1e29);
+    bvec2 exist = bvec2(offset <= last - at && neighbors.x > empty && neighbors.x < -LEAST_SURFACE,
+                        offset <= at && neighbors.y > empty && neighbors.y < -LEAST_SURFACE);
 #if defined(NARROW_RANGE)
     exist = open = bvec2(open.x && exist.x, open.y && exist.y);
 #endif

@@ -18,7 +18,7 @@ void main() {
                 max(texelFetch(u_depth, ivec2(low.x, high.y), 0).r,
                     texelFetch(u_depth, ivec2(high.x, low.y), 0).r));
   Hit hit = hit_sphere(at, v_sphere.xyz, v_sphere.w);
-  float behind = is_surface(a) ? (hit.front - depth_of(a)) / v_sphere.w : 1e9;
+  float behind = is_surface(a) ? (hit.front - depth_of(a)) / v_sphere.w : NOWHERE;
   float near = smoothstep(-1.25, -0.75, behind);
   float weight = max(hit.chord, 0.0) / v_sphere.w * near * exp(-max(behind, 0.0));
   o_tint = vec4(weight * v_color, weight);

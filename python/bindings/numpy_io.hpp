@@ -46,9 +46,23 @@ inline void require_finite(const FloatArray& array, const char* name) {
   }
 }
 
+/// Throws if it is an array of NumPy's that says of some of its numbers that they are none: what
+/// stands in their place would be taken for data.
+inline void require_unmasked(py::handle object, const char* name) {
+  if (!py::hasattr(object, "mask")) return;
+  const py::object masked = py::module_::import("numpy").attr("ma");
+  if (!py::isinstance(object, masked.attr("MaskedArray"))) return;
+  const auto count = masked.attr("count_masked")(object).cast<py::ssize_t>();
+  if (count == 0) return;
+  throw InvalidParameter(std::string(name) + ": " + std::to_string(count) +
+                         " of its numbers are masked; give an array of those that count (see "
+                         "numpy.ma.compress_rows)");
+}
+
 /// Real numbers of any layout and precision as contiguous float32. No copy if they are that
 /// already.
 inline FloatArray float_array(py::handle object, const char* name) {
+  require_unmasked(object, name);
   py::array array;
   try {
     array = py::array::ensure(object);

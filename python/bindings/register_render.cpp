@@ -45,6 +45,7 @@ py::list egl_device_dicts() {
 
 Mesh make_mesh(py::handle vertices, py::handle faces, const std::array<double, 3>& color) {
   const FloatArray points = points_array(vertices, "vertices");
+  require_unmasked(faces, "faces");
   const py::array indices = py::array::ensure(faces);
   const char kind = indices ? indices.dtype().kind() : 'O';
   if (kind != 'i' && kind != 'u') {

@@ -219,11 +219,14 @@ def _assignments(texts: list[str]) -> dict[str, Any]:
 def _value(text: str, option: str) -> Any:
     """Read a value as TOML does; a bare word, which is no TOML, is a string."""
     try:
-        return toml.loads(f"value = {text}")["value"]
+        read = toml.loads(f"value = {text}")
     except toml.TOMLDecodeError as error:
         if re.fullmatch(r"[A-Za-z_][\w-]*", text):
             return text
         raise InvalidParameter(f"{option}: not TOML: {error}") from error
+    if len(read) > 1:
+        raise InvalidParameter(f"{option}: expected one value, got lines that set others as well")
+    return read["value"]
 
 
 def _print_written(directory: Path, frames: int, images: bool, video: Path | None) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -74,7 +74,7 @@ class Scene:
     """
 
     def __init__(self, data: Mapping[str, Any], source: str = "scene") -> None:
-        tables = located(plain(data), Path.cwd())
+        tables = located(_plain(data, source), Path.cwd())
         model, faults = check(tables)
         if faults or model is None:
             raise SceneError(f"{source}: {_count(faults)}\n  " + "\n  ".join(faults))
@@ -400,9 +400,16 @@ def _builtin_scenes() -> Any:
 
 def _parsed(text: str, source: str) -> dict[str, Any]:
     try:
-        return toml.loads(text)
+        return _plain(toml.loads(text), source)
     except toml.TOMLDecodeError as error:
         raise SceneError(f"{source}: not TOML: {error}") from error
+
+
+def _plain(data: Mapping[str, Any], source: str) -> dict[str, Any]:
+    try:
+        return cast("dict[str, Any]", plain(data))
+    except SceneError as error:
+        raise SceneError(f"{source}: {error}") from error
 
 
 def _count(faults: list[str]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path as FilePath
@@ -16,23 +15,36 @@ from pbfluids.scene_model import STRUCTS, TABLES, SceneModel
 # Where a value is inside a scene.
 Path = tuple[str | int, ...]
 
+# Tables and lists inside one another: a scene has four.
+_DEEPEST = 32
 
-def plain(value: Any) -> Any:
-    """Turn what Python code likes to give, tuples and arrays, into what TOML gives."""
+
+def plain(value: Any, depth: int = 0) -> Any:
+    """Turn what Python code likes to give, tuples and arrays, into what TOML gives, all copied.
+
+    Raises
+    ------
+    SceneError
+        If tables and lists are nested deeper than makes sense, or without an end.
+    """
+    if depth > _DEEPEST:
+        raise SceneError(
+            f"tables or lists are nested more than {_DEEPEST} deep; a scene needs no more than 4"
+        )
     if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {str(key): plain(item, depth + 1) for key, item in value.items()}
     if isinstance(value, FilePath):
         return str(value)
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
+        return [plain(item, depth + 1) for item in value]
     return value
 
 
 def changed(data: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
     """Give the data with changes in it, which are named as `Scene.replace` says."""
-    result: dict[str, Any] = copy.deepcopy(dict(data))
+    result: dict[str, Any] = plain(data)
     for key, value in overrides.items():
         *tables, last = key.split(".")
         if not tables and last not in SceneModel.model_fields:
@@ -63,7 +75,7 @@ def files_of(data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
 
 def located(data: Mapping[str, Any], folder: str | FilePath) -> dict[str, Any]:
     """Give the data with absolute names of files; those that are not are relative to a folder."""
-    result = copy.deepcopy(dict(data))
+    result: dict[str, Any] = plain(data)
     for (*tables, last), file in files_of(data):
         target: Any = result
         for table in tables:

@@ -48,6 +48,40 @@ def test_positions_that_are_none_are_rejected(sim, positions, error, message):
     rejects(sim, error, message, lambda: sim.add_particles(positions))
 
 
+def test_masked_numbers_are_no_data(sim):
+    positions = np.ma.masked_array([[0.1] * 3, [0.3] * 3], mask=[[0] * 3, [1] * 3])
+    masked = "3 of its numbers are masked"
+    rejects(sim, InvalidParameter, f"positions: {masked}", lambda: sim.add_particles(positions))
+    values = np.ma.masked_array([0.0, 1.0], mask=[False, True])
+    faces = np.ma.masked_array([[0, 0, 0]], mask=True)
+    light = np.ma.masked_less(np.zeros((2, 4, 3)), 1)
+    with pbf.Renderer(16, 16, backend="cpu") as renderer:
+        with pytest.raises(InvalidParameter, match="values: 1 of its numbers are masked"):
+            renderer.render(positions.data, pbf.Camera(), values=values)
+        with pytest.raises(InvalidParameter, match="environment_map: 24 of its numbers are masked"):
+            renderer.set_environment_map(light)
+    with pytest.raises(InvalidParameter, match=f"faces: {masked}"):
+        pbf.Mesh([[0, 0, 0]], faces)
+    sim.add_particles(np.ma.compress_rows(positions))  # the remedy
+    sim.add_particles(np.ma.masked_array([[0.3] * 3], mask=False))
+
+
+@pytest.mark.parametrize(
+    ("kernel", "distance", "exponent"),
+    [("wendland", 0.99, 4), ("poly6_spiky", 0.7, 4), ("cubic_spline", 1 - 1e-7, 16)],
+)
+def test_repulsion_that_would_blow_up_fluid_at_rest_is_rejected(kernel, distance, exponent):
+    fluid = pbf.FluidParams(spacing=0.05, kernel=kernel)
+    wrong = pbf.SolverParams(tensile_distance=distance, tensile_exponent=exponent)
+    message = "tensile_distance = .* fluid at rest would repel itself .* a smaller distance"
+    with pytest.raises(InvalidParameter, match=message):
+        pbf.Simulation(fluid, wrong)
+    right = pbf.Simulation(fluid, wrong.replace(tensile_strength=0))
+    with pytest.raises(InvalidParameter, match=message):
+        right.solver = wrong
+    assert right.solver.tensile_strength == 0
+
+
 @pytest.mark.parametrize(
     ("velocities", "message"),
     [

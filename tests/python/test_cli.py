@@ -167,6 +167,8 @@ def test_the_directory_is_named_after_the_scene(run, tiny_file, tmp_path, monkey
         (["run", "dam_break", "--set", "spacing=-1"], "fluid.spacing = -1 m: must be"),
         (["run", "dam_break", "--set", "spacing"], "--set spacing: expected KEY=VALUE"),
         (["run", "dam_break", "--set", "spacing=[1"], "--set spacing=[1: not TOML"),
+        (["run", "dam_break", "--set", "spacing=0.1\nduration=0"], "expected one value, got lines"),
+        (["run", "dam_break", "--set", "spacing=0.1\n[x]"], "expected one value, got lines"),
         (["render", "."], ".: not the directory of a run"),
         (["run"], "Missing argument"),
         (["run", "dam_break", "--frames", "0"], "Invalid value for '--frames'"),

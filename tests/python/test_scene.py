@@ -171,6 +171,26 @@ def test_more_than_the_parser_takes_is_a_fault(tmp_path, value):
         pbf.Scene.load(path)
 
 
+@pytest.mark.parametrize("depth", [40, 600, 20_000])
+def test_what_is_nested_too_deeply_is_a_fault(tmp_path, tiny, depth):
+    lists, tables, dotted = 1, 1, ".".join(["a"] * depth)
+    for _ in range(depth):
+        lists, tables = [lists], {"a": tables}
+    endless = []
+    endless.append(endless)
+    for value in (lists, tables, endless):
+        with pytest.raises(SceneError, match=r"^scene: tables or lists are nested more than 32"):
+            pbf.Scene({**tiny, "name": value})
+        with pytest.raises(SceneError, match="nested more than 32"):
+            pbf.Scene(tiny).replace(name=value)
+    with pytest.raises(SceneError, match="nested more than 32"):
+        pbf.Scene(tiny).replace(**{dotted: 1})
+    path = tmp_path / "deep.toml"
+    path.write_text(f"{dotted} = 1\n")
+    with pytest.raises(SceneError, match=rf"^{path}: tables or lists are nested more than 32"):
+        pbf.Scene.load(path)
+
+
 def test_an_unknown_builtin_comes_with_the_name_that_was_meant():
     with pytest.raises(SceneError, match='did you mean "dam_break"'):
         pbf.Scene.builtin("dam_brake")

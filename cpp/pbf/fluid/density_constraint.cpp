@@ -28,6 +28,16 @@ TensileTerms<Kernel> tensile_terms(const Discretization& disc, const SolverParam
 
 }  // namespace
 
+Real repulsion_at_rest(const Discretization& disc, const SolverParams& solver) {
+  if (solver.tensile_strength == 0) return 0;
+  return with_kernel(
+      disc.fluid.kernel_in_force(), disc.fluid.dimensions, disc.h, [&](const auto& kernel) {
+        const Real dq = solver.tensile_distance * disc.h, d = disc.fluid.spacing;
+        return solver.tensile_strength * std::pow(kernel.W(d * d) / kernel.W(dq * dq),
+                                                  static_cast<Real>(solver.tensile_exponent));
+      });
+}
+
 void relative_densities(const Neighborhood& near,
                         const Discretization& disc,
                         const Records& x,

@@ -61,6 +61,15 @@ Simulation::Simulation(const FluidParams& fluid,
 
 void Simulation::set_solver(const SolverParams& solver) {
   validate(solver);
+  if (const Real repulsion = repulsion_at_rest(disc_, solver); !(repulsion <= 1)) {
+    throw InvalidParameter(
+        "SolverParams.tensile_distance = " + to_text(solver.tensile_distance) +
+        " h: with tensile_strength = " + to_text(solver.tensile_strength) +
+        " and tensile_exponent = " + to_text(solver.tensile_exponent) +
+        " fluid at rest would repel itself like fluid compressed by " + to_text(100 * repulsion) +
+        " %; must be at most 100 %: a smaller distance, 0.1 to 0.3 h, a lower strength or a lower "
+        "exponent");
+  }
   solver_ = solver;
 }
 

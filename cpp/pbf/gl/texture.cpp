@@ -1,5 +1,7 @@
 #include "pbf/gl/texture.hpp"
 
+#include "pbf/gl/error.hpp"
+
 namespace pbf {
 namespace {
 
@@ -46,6 +48,7 @@ Texture::Texture(int width, int height, Format format, const void* data, Samplin
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(layout.internal), width, height, 0,
                layout.format, layout.type, data);
   if (panorama) glGenerateMipmap(GL_TEXTURE_2D);
+  require_no_gl_error();
 }
 
 void Texture::upload(const void* data, int pitch) const {

@@ -1,5 +1,6 @@
 #include "pbf/render/fluid_renderer.hpp"
 
+#include "pbf/gl/error.hpp"
 #include "pbf/render/anisotropy.hpp"
 #include "pbf/render/checks.hpp"
 #include "pbf/render/crowding.hpp"
@@ -26,10 +27,15 @@
 namespace pbf {
 namespace {
 
-void require_drawable(int width, int height, int factor) {
+/// Pixels to a side of a texture.
+int most_pixels() {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-  limit /= factor;
+  return limit;
+}
+
+void require_drawable(int width, int height, int factor) {
+  const int limit = most_pixels() / factor;
   if (width > limit || height > limit) {
     throw InvalidParameter((width > limit ? "width = " + std::to_string(width)
                                           : "height = " + std::to_string(height)) +
@@ -38,12 +44,23 @@ void require_drawable(int width, int height, int factor) {
   }
 }
 
-void require_no_gl_error() {
-  if (const GLenum error = glGetError(); error == GL_OUT_OF_MEMORY) {
-    throw std::bad_alloc();
-  } else if (error != GL_NO_ERROR) {
-    throw GlError("the driver reports OpenGL error " + std::to_string(error));
+std::unique_ptr<Texture> panorama(const EnvironmentMap& map) {
+  validate(map);
+  if (const int most = most_pixels(); map.width > most || map.height > most) {
+    throw InvalidParameter("environment_map: shape (" + std::to_string(map.height) + ", " +
+                           std::to_string(map.width) + ", 3): this driver takes at most " +
+                           std::to_string(most) + " pixels to a side; make it smaller");
   }
+  std::vector<float> texels;
+  texels.reserve(map.data.size() / 3 * 4);
+  for (int y = map.height - 1; y >= 0; --y) {
+    for (int x = 0; x < map.width; ++x) {
+      for (int c = 0; c < 3; ++c) texels.push_back(std::min(map.at(x, y)[c], kBrightest));
+      texels.push_back(1);
+    }
+  }
+  return std::make_unique<Texture>(map.width, map.height, Format::rgba16f, texels.data(),
+                                   Sampling::panorama);
 }
 
 }  // namespace
@@ -124,9 +141,9 @@ FluidRenderer::FluidRenderer(int width, int height, std::unique_ptr<EglContext> 
   const auto current = context_->make_current();
   require_drawable(width, height, 1);
   auto passes = std::make_unique<Passes>(context_->has_version(4, 0));
-  prepare_targets(1);
   require_no_gl_error();
-  passes_ = std::move(passes);
+  prepare_targets(1);
+  passes_ = std::move(passes);  // nothing throws from here on, when the context is not current
 }
 
 void FluidRenderer::prepare_targets(int factor) {
@@ -337,24 +354,8 @@ Image FluidRenderer::render(const PointsView& positions,
 
 void FluidRenderer::set_environment_map(const std::optional<EnvironmentMap>& map) {
   const auto current = context_->make_current();
+  environment_map_ = map ? panorama(*map) : nullptr;
   passes_->composite.forget_backdrop();
-  if (!map) {
-    environment_map_.reset();
-    return;
-  }
-  validate(*map);
-  require_drawable(map->width, map->height, 1);
-  std::vector<float> texels;
-  texels.reserve(map->data.size() / 3 * 4);
-  for (int y = map->height - 1; y >= 0; --y) {
-    for (int x = 0; x < map->width; ++x) {
-      for (int c = 0; c < 3; ++c) texels.push_back(std::min(map->at(x, y)[c], kBrightest));
-      texels.push_back(1);
-    }
-  }
-  environment_map_ = std::make_unique<Texture>(map->width, map->height, Format::rgba16f,
-                                               texels.data(), Sampling::panorama);
-  require_no_gl_error();
 }
 
 Layers FluidRenderer::layers(const PointsView& positions,

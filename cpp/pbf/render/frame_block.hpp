@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pbf/render/affine_depth.hpp"
 #include "pbf/render/camera.hpp"
 #include "pbf/render/params.hpp"
 
@@ -14,9 +15,6 @@ struct FrameBlock {
   std::array<float, 4> size;
 };
 static_assert(sizeof(FrameBlock) == 96);
-
-/// Affine depth where there is no fluid.
-inline constexpr float kNothing = -1e30F;
 
 FrameBlock frame_block(const Camera& camera, int width, int height);
 

@@ -1,6 +1,7 @@
 #include "pbf/render/read_back.hpp"
 
 #include "pbf/gl/framebuffer.hpp"
+#include "pbf/render/affine_depth.hpp"
 
 #include <algorithm>
 
@@ -33,10 +34,7 @@ Pixels<float> read_floats(const Texture& texture, int channels) {
 
 Pixels<float> read_depth(const Texture& texture, const Camera& camera) {
   Pixels<float> pixels = read_floats(texture, 1);
-  for (float& a : pixels.data) {
-    const bool is_surface = a > -1e29F;
-    a = !is_surface ? 0.0F : camera.orthographic ? -a : 1.0F / a;
-  }
+  for (float& a : pixels.data) a = depth_or_none(a, camera.orthographic);
   return pixels;
 }
 

@@ -277,7 +277,7 @@ class SolverParams:
     @property
     def tensile_distance(self) -> float:
         """
-        Distance at which the artificial repulsion has its nominal strength, as a share of h.
+        Distance at which the artificial repulsion has its nominal strength, as a share of h. At the rest distance it must not exceed what fluid compressed by 100 % has; 0.1 to 0.3 are usual.
         """
     @tensile_distance.setter
     def tensile_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -1,6 +1,7 @@
 #include "pbf/render/passes/backdrop.hpp"
 
 #include "pbf/gl/draw.hpp"
+#include "pbf/gl/error.hpp"
 #include "pbf/render/passes/fluid_tiles.hpp"
 #include "pbf/render/shadow_rectangle.hpp"
 
@@ -29,6 +30,7 @@ void Backdrop::operator()(const Surroundings& surroundings,
     auto kept = std::make_unique<Kept>(
         Kept{camera, params, Target(out.width(), out.height(), Format::srgb8)});
     draw(false, surroundings, camera, params, kept->picture.framebuffer);
+    require_no_gl_error();  // what comes of one is not kept
     kept_ = std::move(kept);
   }
   kept_->picture.framebuffer.copy_to(out);

@@ -8,7 +8,6 @@ namespace {
 
 using namespace raster;
 
-constexpr float kNothing = -1e30F;
 /// Vectors may begin at any pixel of the tile.
 constexpr int kWidth = kTileSide + kLanes;
 
@@ -95,7 +94,7 @@ void spheres(
     for (int x = 0; x < kTileSide; x += kLanes) {
       const std::ptrdiff_t at = y * to.pitch + x;
       const Lanes a = load_lanes(depth + y * kWidth + x);
-      const Mask exists = a > Lanes(0.1F * kNothing);
+      const Mask exists = is_surface(a);
       Vec3Lanes n{0.0F, 0.0F, 0.0F};
       Lanes color = 0.0F;
       if (any(exists)) {
@@ -120,7 +119,6 @@ void spheres(
 /// Depth of the surface at the pixels of a coarser map: the front of the pixels around; where there
 /// is none, far in front of everything.
 PBF_INLINE Lanes surface_around(const SplatView& view, const Texels& surface, int x, int y) {
-  constexpr float kNone = -1e9F;
   const auto low = [](Lanes at, float size, int texels) PBF_LAMBDA_INLINE {
     const Lanes place = at * Lanes(static_cast<float>(texels) / size) - Lanes(0.5F);
     return clamp(to_ints(place), 0, texels - 1);
@@ -132,7 +130,7 @@ PBF_INLINE Lanes surface_around(const SplatView& view, const Texels& surface, in
   const Lanes a = max(max(fetch(surface, left, below), fetch(surface, right, above)),
                       max(fetch(surface, left, above), fetch(surface, right, below)));
   const Lanes d = depth_of(view, a);
-  return select(a > Lanes(-1e29F), d, kNone);
+  return select(is_surface(a), d, -kNowhere);
 }
 
 void tint(const Record* centers,

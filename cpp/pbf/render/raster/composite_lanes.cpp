@@ -13,7 +13,7 @@ using raster::CompositeKernels;
 PBF_INLINE bool is_in_shadow(const Scene& scene, const Vec3Lanes& origin, const Vec3Lanes& ray) {
   const Environment& e = scene.environment;
   const Lanes way = distance_to_floor(e, origin, ray);
-  const Mask meets = way < Lanes(1e8F);
+  const Mask meets = is_met(way);
   if (!any(meets)) return false;
   const Vec3Lanes light = sunlight(scene, origin + select(meets, way, 0.0F) * ray);
   return any(meets & (min(light.x, min(light.y, light.z)) < Lanes(1)));

@@ -75,7 +75,7 @@ PBF_INLINE Vec3Lanes mapped(const Scene& scene, const Vec3Lanes& direction, Lane
   const Lanes height = clamp(dot(direction, lanes(e.up)), -1.0F, 1.0F);
   const Lanes above = Lanes(1) - acos(height) * Lanes(1 / 3.1415927F);
   const float texels_of_pixel =
-      static_cast<float>(scene.map.levels[0].width) / (6.2831853F * scene.frame.pixels_per_meter);
+      static_cast<float>(scene.map.levels[0].width) / (6.2831853F * pixels_per_radian(scene.frame));
   const Lanes texels = max(spread * Lanes(texels_of_pixel), 1.0F);
   const float deepest = static_cast<float>(scene.map.count - 1);
   const Lanes level = min(log(texels) * Lanes(1 / 0.693147181F), deepest);
@@ -198,10 +198,10 @@ PBF_INLINE Mask is_below_floor(const Environment& e, const Vec3Lanes& point) {
 PBF_INLINE Lanes distance_to_floor(const Environment& e,
                                    const Vec3Lanes& point,
                                    const Vec3Lanes& direction) {
-  if (!e.has_floor) return 1e9F;
+  if (!e.has_floor) return kNowhere;
   const Lanes down = -dot(direction, lanes(e.up));
   const Lanes way = max(height_above_floor(e, point), 0.0F) / max(down, 1e-4F);
-  return select(down > Lanes(1e-4F), way, 1e9F);
+  return select(down > Lanes(1e-4F), way, kNowhere);
 }
 
 /// @param beyond  what is farther than the floor (light_from)
@@ -215,7 +215,7 @@ PBF_INLINE RgbaLanes environment(const Scene& scene,
                                  Mask wanted) {
   const Environment& e = scene.environment;
   const Lanes way = distance_to_floor(e, point, direction);
-  const Mask meets = way < Lanes(1e8F);
+  const Mask meets = is_met(way);
   if (eye_height(e) < 0 || !any(meets & wanted)) {
     return light_from(scene, beyond, direction, spread);
   }

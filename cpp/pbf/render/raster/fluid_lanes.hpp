@@ -114,7 +114,8 @@ PBF_INLINE Shade fluid(const Scene& scene,
                          Lanes(terms.has_tint ? 0.3F : 1.0F);
   const Vec3Lanes mirror = to_world(frame, reflect(view, n));
   // A drop turns rays that are a pixel apart by a pixel's share of its radius.
-  const Lanes of_drop = Lanes(frame.pixels_per_meter / terms.drop_radius) * pixel_at(frame, depth);
+  const Lanes of_drop =
+      Lanes(pixels_per_radian(frame) / terms.drop_radius) * pixel_at(frame, depth);
   const Lanes spread = mix(max(of_drop, kSpread), kSpread, at.body);
   const Vec3Lanes reflection =
       environment(scene, e.mirrored, position, mirror, depth, spread, at.wanted).rgb;
@@ -124,7 +125,7 @@ PBF_INLINE Shade fluid(const Scene& scene,
       environment(scene, e.backdrop, bent.ray.at, bent.ray.direction, depth, spread, at.wanted);
   if (terms.meshes.exist) {
     const Lanes farthest =
-        Lanes(1.3F) * max(bent.ray.way, select(at.to_mesh < Lanes(1e8F), at.to_mesh, 0.0F));
+        Lanes(1.3F) * max(bent.ray.way, select(is_met(at.to_mesh), at.to_mesh, 0.0F));
     const MeshHit hit =
         meet_mesh(scene, terms.meshes, at.p, to_eye(frame, bent.first), farthest, at.wanted);
     behind = select(hit.meets, RgbaLanes{hit.light, 1.0F}, behind);
@@ -169,7 +170,7 @@ PBF_INLINE void draw_fluid(
   Lanes share = clamp(Lanes(1.8F) * coverage(terms.depth, x, y) - Lanes(0.55F), 0.0F, 1.0F) *
                 smoothstep(0.1F, 0.8F, thickness * Lanes(1 / terms.sprite_thickness)) *
                 cut_at_walls(scene, terms, p, view.direction, deep / -view.direction.z, body, n);
-  Lanes to_mesh = 1e9F;
+  Lanes to_mesh = kNowhere;
   Mask hidden = is_below_floor(e, lanes(e.eye) + to_world(frame, p));
   if (terms.meshes.exist) {
     const Lanes mesh = load_at(terms.meshes.depth, x, y);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "pbf/render/affine_depth.hpp"
 #include "pbf/render/raster/glsl_lanes.hpp"
 
 /// Of glsl/frame.glsl, where it is explained, what the loops over pixels need.
 namespace pbf::PBF_ISA_NAMESPACE {
 
-inline constexpr float kLeastSurface = -1e29F;  // affine depth
+inline constexpr float kNowhere = 1e30F;  // how far it is to what a ray does not meet [m]
+PBF_INLINE Mask is_met(Lanes way) { return way < Lanes(1e29F); }
 
 using raster::FrameTerms;
 
@@ -25,7 +27,7 @@ PBF_INLINE Lanes nearer(bool perspective, Lanes a, float length) {
 }
 
 /// Of a far side there may be none, which is as far as can be to either side.
-PBF_INLINE Mask is_surface(Lanes a) { return abs(a) < Lanes(1e29F); }
+PBF_INLINE Mask is_surface(Lanes a) { return abs(a) < Lanes(-kLeastSurface); }
 PBF_INLINE Lanes depth_of(const FrameTerms& frame, Lanes a) {
   return frame.perspective ? Lanes(1) / a : -a;
 }
@@ -60,6 +62,10 @@ PBF_INLINE PixelLanes pixel_of(const FrameTerms& frame, const Vec3Lanes& p) {
 }
 PBF_INLINE Lanes pixels_per_meter(const FrameTerms& frame, Lanes d) {
   return frame.perspective ? Lanes(frame.pixels_per_meter) / d : Lanes(frame.pixels_per_meter);
+}
+/// Parallel rays: as if the picture were seen from as far away as it is high.
+PBF_INLINE float pixels_per_radian(const FrameTerms& frame) {
+  return frame.perspective ? frame.pixels_per_meter : frame.height;
 }
 /// Length of a pixel's side at a depth [m].
 PBF_INLINE Lanes pixel_at(const FrameTerms& frame, Lanes d) {

@@ -1,5 +1,7 @@
 #include "pbf/render/raster/layers.hpp"
 
+#include "pbf/render/affine_depth.hpp"
+
 namespace pbf::raster {
 
 Pixels<float> pixels(const Map& map) {
@@ -25,7 +27,7 @@ Pixels<float> pixels(const NormalMaps& maps) {
 
 Pixels<float> depth_pixels(const Map& map, const Camera& camera) {
   Pixels<float> result = pixels(map);
-  for (float& a : result.data) a = a <= 0.1F * kNothing ? 0 : camera.orthographic ? -a : 1 / a;
+  for (float& a : result.data) a = depth_or_none(a, camera.orthographic);
   return result;
 }
 

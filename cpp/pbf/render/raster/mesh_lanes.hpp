@@ -23,7 +23,7 @@ PBF_INLINE BehindMesh behind_mesh(const Scene& scene,
   const Ints x = to_ints(clamp(at.x, 0.0F, frame.width - 1));
   const Ints y = to_ints(clamp(at.y, 0.0F, frame.height - 1));
   const Lanes a = fetch(meshes.depth, x, y), depth = depth_of(frame, a);
-  return {select(is_surface(a) & (depth > -p.z), -point.z - depth, -1e9F),
+  return {select(is_surface(a) & (depth > -p.z), -point.z - depth, -kNowhere),
           fetch(meshes.light, x, y)};
 }
 

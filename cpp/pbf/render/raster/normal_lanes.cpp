@@ -43,7 +43,7 @@ tangent(const NormalTerms& terms, int x, int y, int dx, int dy, const Vec3Lanes&
   const Vec3Lanes next = to_next.at - p, previous = p - from_previous.at;
   const Lanes width = pixel_at(terms.frame, -p.z), floor2 = width * width;
   const auto weight = [&](Mask exists, const Vec3Lanes& step) PBF_LAMBDA_INLINE {
-    return select(exists, Lanes(1) / (step.z * step.z + floor2), 0.0F);
+    return select(exists, floor2 / (step.z * step.z + floor2), 0.0F);
   };
   const Lanes w_next = weight(has_next, next), w_previous = weight(has_previous, previous);
   const Lanes high = min(abs(next.z), abs(previous.z));
@@ -58,17 +58,14 @@ tangent(const NormalTerms& terms, int x, int y, int dx, int dy, const Vec3Lanes&
           ~(on_next & on_previous), ~(on_next | on_previous)};
 }
 
-PBF_INLINE Vec3Lanes sphere_normal(const Vec3Lanes& a,
-                                   const Vec3Lanes& b,
-                                   const Vec3Lanes& view,
-                                   Lanes radius) {
+PBF_INLINE Vec3Lanes sphere_normal(const Vec3Lanes& a, const Vec3Lanes& b, const Vec3Lanes& view) {
   const Vec3Lanes across = cross(a, b);
   const Lanes across2 = dot(across, across);
   const Vec3Lanes c = (Lanes(0.5F) / across2) * cross(dot(a, a) * b - dot(b, b) * a, across);
-  const Lanes height2 = radius * radius - dot(c, c);
+  const Lanes height2 = Lanes(1) - dot(c, c);
   const Lanes side = select(dot(across, view) > Lanes(0.0F), -1.0F, 1.0F);
   const Vec3Lanes n = (side / sqrt(across2)) * across;
-  const Vec3Lanes own = (Lanes(1) / radius) * (sqrt(max(height2, 0.0F)) * n - c);
+  const Vec3Lanes own = sqrt(max(height2, 0.0F)) * n - c;
   return select(height2 > Lanes(0.0F), own, Vec3Lanes{0.0F, 0.0F, 0.0F});
 }
 
@@ -147,7 +144,8 @@ PBF_INLINE Vec3Lanes rim_normal(
       eye_position(frame, at_x + Lanes(1), at_y, depth_of(frame, a + rise_x)) - p;
   const Vec3Lanes above =
       eye_position(frame, at_x, at_y + Lanes(1), depth_of(frame, a + rise_y)) - p;
-  const Vec3Lanes plane = normalize(cross(right, above));
+  const Lanes per_radius(1 / terms.radius);
+  const Vec3Lanes plane = normalize(cross(per_radius * right, per_radius * above));
   const Vec3Lanes view = normalize(ray_direction(frame, at_x, at_y));
   Lanes cosine = clamp(-dot(plane, view), 0.0F, 1.0F);
   const Vec3Lanes tilt = plane + cosine * view;
@@ -182,7 +180,8 @@ void normal(const NormalTerms& terms, Tile tile, float* nx, float* ny, float* nz
         if (any(outline)) {
           const Vec3Lanes view =
               terms.frame.perspective ? (Lanes(-1) / p.z) * p : Vec3Lanes{0.0F, 0.0F, -1.0F};
-          const Vec3Lanes own = sphere_normal(right.step, up.step, view, radius);
+          const Lanes per_radius = Lanes(1) / radius;
+          const Vec3Lanes own = sphere_normal(per_radius * right.step, per_radius * up.step, view);
           n = select(outline & (dot(own, view) < Lanes(0.0F)), own, n);
         }
         const Lanes pixels = min(terms.radius / pixel_at(terms.frame, -p.z), kMostReach);

@@ -5,6 +5,8 @@
 // The half of glsl/composite.frag that follows a ray through the fluid.
 namespace pbf::PBF_ISA_NAMESPACE {
 
+inline constexpr float kLeastWay = 1e-4F;  // in the fluid: others count as this [sprites' radii]
+
 PBF_INLINE Lanes fresnel(Lanes c, float index) {
   const Lanes g = sqrt(max(Lanes(index * index - 1) + c * c, 1e-6F));
   const Lanes a = (g - c) / (g + c);
@@ -47,14 +49,14 @@ PBF_INLINE Lanes share_in_fluid(const Scene& scene,
 }
 
 PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& terms, Ray& ray) {
-  constexpr float kMostWay = 1e3F;
   const Environment& e = scene.environment;
   const float index = terms.refractive_index;
   Mask inside = Lanes(0.0F) <= Lanes(0.0F);
   for (int k = 0; k < 2 && any(inside); ++k) {
     const Lanes to_floor = distance_to_ground(e, ray.at, ray.direction);
     const Wall wall = nearest_wall(e, ray.at, ray.direction);
-    const Lanes way = select(inside, min(min(to_floor, wall.way), kMostWay), 0.0F);
+    const Lanes to_end = min(to_floor, wall.way);
+    const Lanes way = select(inside & is_met(to_end), to_end, 0.0F);
     ray.way += k == 0 ? way : way * share_in_fluid(scene, terms, ray, way);
     ray.at += way * ray.direction;
     const Vec3Lanes bent = refract(ray.direction, -wall.outward, index);
@@ -95,7 +97,7 @@ back_normal(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes d
   right.z = clamp(right.z, -most, most);
   up.z = clamp(up.z, -most, most);
   const Vec3Lanes n = cross(right, up);
-  return normalize(Vec3Lanes{n.x, n.y, n.z + Lanes(1e-12F)});
+  return normalize(Vec3Lanes{n.x, n.y, n.z + Lanes(1e-9F * terms.radius * terms.radius)});
 }
 
 PBF_INLINE Vec3Lanes out_of(const Vec3Lanes& direction, const Vec3Lanes& n, float index) {
@@ -144,7 +146,8 @@ PBF_INLINE Refracted refracted(const Scene& scene,
   }
   const Lanes gap = to_end - way;
   const Lanes sticking_out = min(1.2F * terms.radius, Lanes(0.5F) * straight);
-  const Lanes filled = thickness / max(min(straight - sticking_out, to_end), 1e-6F);
+  const Lanes least = kLeastWay * terms.radius;
+  const Lanes filled = thickness / max(min(straight - sticking_out, to_end), least);
   const Lanes is_bound = (Lanes(1) - smoothstep(0.5F * terms.radius, 3 * terms.radius, gap)) *
                          select(Lanes(1) <= body, smoothstep(0.35F, 0.75F, filled), 0.0F);
   const Lanes solid = max(body * smoothstep(0.55F, 0.9F, filled), is_bound);
@@ -154,7 +157,7 @@ PBF_INLINE Refracted refracted(const Scene& scene,
     const Vec3Lanes far_side = back_normal(scene, terms, x, y, way - p.z);
     direction = mix(twice, to_world(frame, out_of(into, far_side, index)), solid);
   }
-  const Lanes length = mix(thickness, way * thickness / max(straight, 1e-6F), solid);
+  const Lanes length = mix(thickness, way * thickness / max(straight, least), solid);
   Ray ray{position + way * once, direction, length};
   if (any((is_bound > Lanes(0.0F)) & wanted)) {
     Ray bound{position, once, 0.0F};

@@ -1,12 +1,11 @@
 // Compiled once per instruction set (cpp/pbf_render.cmake).
+#include "pbf/render/affine_depth.hpp"
 #include "pbf/render/raster/outline_lanes.hpp"
 
 namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
 
 using namespace raster;
-
-constexpr float kNothing = -1e30F;
 
 void project(const Record* particles,
              Record* stretches,

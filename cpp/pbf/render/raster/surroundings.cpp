@@ -1,5 +1,7 @@
 #include "pbf/render/raster/surroundings.hpp"
 
+#include "pbf/render/affine_depth.hpp"
+
 #include <algorithm>
 
 namespace pbf::raster {
@@ -15,12 +17,12 @@ Surroundings surroundings(
   float* to = memory.data();
   for (int y = tile.y - rows; y < tile.y + kTileSide + rows; ++y, to += pitch) {
     if (y < 0 || y >= values.height()) {
-      std::fill_n(to, pitch, kNotThere);
+      std::fill_n(to, pitch, kNothing);
       continue;
     }
-    float* end = std::fill_n(to, first - (tile.x - columns), kNotThere);
+    float* end = std::fill_n(to, first - (tile.x - columns), kNothing);
     end = std::copy(values.row(y) + first, values.row(y) + last, end);
-    std::fill(end, to + pitch, kNotThere);
+    std::fill(end, to + pitch, kNothing);
   }
   return {memory.data() + rows * pitch + columns, pitch, columns, rows};
 }

@@ -6,14 +6,12 @@ namespace pbf::raster {
 
 /// The values of a tile and around it, in memory of their own: neighbors along a column do not
 /// compete for the same few lines of the cache, and nothing ends at the picture's border. What is
-/// beyond that is kNotThere.
+/// beyond that is kNothing.
 struct Surroundings {
   const float* first;    ///< the tile's first pixel
   std::ptrdiff_t pitch;  ///< numbers from row to row
   int columns, rows;     ///< how far to the sides, above and below
 };
-
-inline constexpr float kNotThere = -1e30F;  ///< less than any value of any layer
 
 /// Copies them to `memory`; at most the extent of the map to each side.
 Surroundings surroundings(

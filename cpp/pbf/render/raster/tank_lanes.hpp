@@ -10,14 +10,14 @@ using raster::FluidTerms;
 using raster::Texels;
 
 struct Wall {
-  Lanes way;          // 1e9 if there is none
+  Lanes way;          // kNowhere if there is none
   Vec3Lanes outward;  // unit vector
 };
 
 PBF_INLINE Wall nearest_wall(const Environment& e,
                              const Vec3Lanes& point,
                              const Vec3Lanes& direction) {
-  if (!e.has_tank) return {1e9F, {0.0F, 0.0F, 0.0F}};
+  if (!e.has_tank) return {kNowhere, {0.0F, 0.0F, 0.0F}};
   struct Side {
     Lanes way, sign;
   };
@@ -28,7 +28,7 @@ PBF_INLINE Wall nearest_wall(const Environment& e,
     const Lanes sign = select(ahead, 1.0F, -1.0F);
     const Lanes way = (face - clamp(at, low, high)) / (sign * max(abs(along), 1e-6F));
     const bool none = up >= 0.9F || up <= -0.9F;
-    return {way + Lanes(none ? 1e9F : 0.0F), sign};
+    return {way + Lanes(none ? kNowhere : 0.0F), sign};
   };
   const Side x = side(point.x, direction.x, e.tank_lower.x, e.tank_upper.x, e.up.x);
   const Side y = side(point.y, direction.y, e.tank_lower.y, e.tank_upper.y, e.up.y);
@@ -48,7 +48,7 @@ PBF_INLINE Lanes distance_to_ground(const Environment& e,
   const Lanes bottom = min(dot(lanes(e.tank_lower), up), dot(lanes(e.tank_upper), up));
   const Lanes down = -dot(direction, up);
   const Lanes to_bottom = max(dot(point, up) - bottom, 0.0F) / max(down, 1e-4F);
-  return min(select(down > Lanes(1e-4F), to_bottom, 1e9F), to_floor);
+  return min(select(down > Lanes(1e-4F), to_bottom, kNowhere), to_floor);
 }
 
 /// A body's spheres stick out of the tank, but fluid ends at its walls: the share of the pixels
@@ -75,9 +75,9 @@ PBF_INLINE Lanes cut_at_walls(const Scene& scene,
     const Lanes sign = select(ahead, 1.0F, -1.0F);
     const Lanes speed = max(abs(along), 1e-5F), inverse = sign / speed;
     const Lanes open = up >= 0.9F || up <= -0.9F ? 1.0F : 0.0F;
-    const Lanes to_far = (select(ahead, high, low) - at) * inverse + Lanes(1e9F) * open;
+    const Lanes to_far = (select(ahead, high, low) - at) * inverse + Lanes(kNowhere) * open;
     return {(Lanes(1) - open) * max(Lanes(low) - at, at - Lanes(high)),
-            (select(ahead, low, high) - at) * inverse - Lanes(1e9F) * open, to_far, sign,
+            (select(ahead, low, high) - at) * inverse - Lanes(kNowhere) * open, to_far, sign,
             (Lanes(1) - smoothstep(1.0F, 3.0F, to_far * speed * Lanes(1 / radius))) * sign};
   };
   const Slab x = slab(point.x, direction.x, e.tank_lower.x, e.tank_upper.x, e.up.x);
