@@ -49,8 +49,8 @@ RenderParams params(Real spacing) {
   return params;
 }
 
-/// Pixels that sprites cover, each of its own; of full size, as most are. In C++ deep ones cover a
-/// quarter as many.
+/// Pixels that sprites cover, each of its own; of full size, as most are. In C++ deep ones are not
+/// drawn.
 double fragments(const Cloud& of, const RenderParams& drawn, double pixels_per_slope, bool in_cpp) {
   Neighborhoods particles;
   particles.find(of.positions, camera(), drawn.neighbor_distance(), drawn.radius,
@@ -58,11 +58,11 @@ double fragments(const Cloud& of, const RenderParams& drawn, double pixels_per_s
   const Eigen::Matrix4f view = camera().view();
   const double r2 = std::pow(static_cast<double>(drawn.radius), 2);
   double sum = 0;
-  for (Index i = 0; i < of.positions.cols(); ++i) {
+  const Index drawn_count = in_cpp ? particles.shallow_count() : of.positions.cols();
+  for (Index i = 0; i < drawn_count; ++i) {
     const Record& p = particles.particles()[i];
     const double z = -(view.row(2).head<3>().dot(Vec3(p.x, p.y, p.z)) + view(2, 3));
-    const double share = in_cpp && i >= particles.shallow().cols() ? 0.25 : 1;
-    sum += share * std::numbers::pi * r2 * pixels_per_slope * pixels_per_slope / (z * z - r2);
+    sum += std::numbers::pi * r2 * pixels_per_slope * pixels_per_slope / (z * z - r2);
   }
   return sum;
 }

@@ -112,7 +112,7 @@ TEST_CASE("splats: sprites of many tiles count as small ones do") {
   }
 }
 
-TEST_CASE("splats: with half as many pixels deep ones are as thick, and none of them is missed") {
+TEST_CASE("splats: deep ones, added to coarse grids, are as thick, and none of them is missed") {
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> shake(-0.2F, 0.2F);
   constexpr Index kSide = 24;
