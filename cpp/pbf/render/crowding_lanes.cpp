@@ -71,9 +71,9 @@ float sum(const Candidates& candidates, const Record& particle, float inverse_s2
 void mark(const Candidates& candidates, const float* u, float beyond, std::uint8_t* flags) {
   const Candidates j = candidates;
   for (std::uint32_t k = 0; k < j.count; k += kLanes) {
-    for_each_lane(load_lanes(u + k) > Lanes(beyond),
-                  [&](std::uint32_t lane)
-                      PBF_LAMBDA_INLINE { set(flags + j.entry[k + lane] / 4); });
+    for_each_lane(load_lanes(u + k) > Lanes(beyond), [&](std::uint32_t lane) PBF_LAMBDA_INLINE {
+      set(flags + j.entry[k + lane] / 4);
+    });
   }
 }
 

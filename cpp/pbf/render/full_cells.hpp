@@ -44,8 +44,8 @@ class FullCells {
   void for_inner(int threads, F&& f) const;
 
   Real side_ = 0;
-  Vec3 first_ = Vec3::Zero();                   // number of the least cell on each axis
-  Eigen::Array<Index, 3, 1> sides_{0, 0, 0};    // [cells]
+  Vec3 first_ = Vec3::Zero();                 // number of the least cell on each axis
+  Eigen::Array<Index, 3, 1> sides_{0, 0, 0};  // [cells]
   std::array<Index, 3> strides_{1, 0, 0};
   bool has_all_ = false;
   std::vector<std::uint32_t> cells_;  // of the particles; 0, in the margin, for who is in none

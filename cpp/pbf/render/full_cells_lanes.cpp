@@ -15,8 +15,7 @@ void locate(const Real* xyz, Index count, const CellBlock& block, std::uint32_t*
     const Lanes axes[] = {p.x, p.y, p.z};
     for (int axis = 0; axis < 3; ++axis) {
       const Lanes from_first = floor(axes[axis] * block.cells_per_meter) - block.first[axis];
-      const Mask within =
-          (Lanes(0.0F) <= from_first) & (from_first < Lanes(block.counts[axis]));
+      const Mask within = (Lanes(0.0F) <= from_first) & (from_first < Lanes(block.counts[axis]));
       inside = inside & within;
       const Lanes number = select(within, from_first, 0.0F);
       cell += __builtin_convertvector(number.v, Ints) * block.strides[axis];

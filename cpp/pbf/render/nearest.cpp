@@ -26,7 +26,8 @@ Real nearest_front(const PointsView& positions, Real radius, const FrameBlock& f
     nearest[static_cast<std::size_t>(first / kBlock)] = kernels.nearest(
         point_block(positions, first, last, room), last - first, radius, beyond, terms);
   });
-  return std::accumulate(nearest.begin(), nearest.end(), terms.far, [](Real a, Real b) { return std::min(a, b); });
+  return std::accumulate(nearest.begin(), nearest.end(), terms.far,
+                         [](Real a, Real b) { return std::min(a, b); });
 }
 
 }  // namespace pbf

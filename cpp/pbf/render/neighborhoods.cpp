@@ -26,12 +26,16 @@ struct Starts {
 }  // namespace
 
 /// Sets deep particles apart from the others, and picks those to sort.
-void Neighborhoods::part(const PointsView& positions, const Camera& camera, Deep deep, int threads) {
+void Neighborhoods::part(const PointsView& positions,
+                         const Camera& camera,
+                         Deep deep,
+                         int threads) {
   const Index n = positions.cols();
   const Vec3& eye = camera.eye;
   const Real farthest = 0.5F * static_cast<Real>(kFarthestCell) * s_;
   const auto is_near = [&](const Vec3& x) { return ((x - eye).array().abs() <= farthest).all(); };
-  const bool all_near = s_ > 0 && cells_.has_all() && is_near(cells_.lower()) && is_near(cells_.upper());
+  const bool all_near =
+      s_ > 0 && cells_.has_all() && is_near(cells_.lower()) && is_near(cells_.upper());
   const auto is_sorted = [&](Index i) { return all_near || (s_ > 0 && is_near(positions.col(i))); };
   places_.resize(static_cast<std::size_t>(n));
   std::vector<Starts> starts(static_cast<std::size_t>((n + kBlock - 1) / kBlock));

@@ -33,8 +33,8 @@ class Neighborhoods {
   /// passes to set.
   [[nodiscard]] Records& particles() { return particles_; }
   [[nodiscard]] const Records& particles() const { return particles_; }
-  /// Where they are, in the order given: deep ones are so deep in a body, and behind the near plane,
-  /// that others hide them.
+  /// Where they are, in the order given: deep ones are so deep in a body, and behind the near
+  /// plane, that others hide them.
   [[nodiscard]] const std::vector<FullCells::Place>& places() const { return places_; }
   /// How many are not deep, and their positions.
   [[nodiscard]] Index shallow_count() const { return shallow_; }

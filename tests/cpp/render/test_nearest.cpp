@@ -6,7 +6,8 @@
 
 using namespace pbf;
 
-TEST_CASE("nearest_front: of the spheres that reach into the picture the nearest, by the near plane") {
+TEST_CASE(
+    "nearest_front: of the spheres that reach into the picture the nearest") {
   Camera camera;
   camera.eye = {0, 0, 5};
   camera.target = {0, 0, 0};

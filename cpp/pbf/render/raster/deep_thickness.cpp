@@ -18,7 +18,9 @@ constexpr int kMargin = DeepKernels::kMargin;
 std::vector<Deposit::Size> sizes_of(int width, int height) {
   std::vector<Deposit::Size> sizes;
   for (int level = 0; level <= kLevels; ++level) {
-    const auto cells = [&](int pixels) { return ((pixels + (1 << level) - 1) >> level) + 2 * kMargin; };
+    const auto cells = [&](int pixels) {
+      return ((pixels + (1 << level) - 1) >> level) + 2 * kMargin;
+    };
     sizes.push_back({cells(width), cells(height)});
   }
   return sizes;

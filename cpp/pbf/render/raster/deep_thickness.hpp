@@ -7,10 +7,10 @@
 
 namespace pbf::raster {
 
-/// Thickness of what lies deep in a body (full_cells.hpp): where nobody sees a single particle there
-/// are no edges to keep. Each adds its volume to four cells of a grid over the picture, of the
-/// coarsest whose cells, 2, 4, 8 … pixels wide, are no wider than the sprite's radius. Coarse grids
-/// are interpolated to finer ones, and the finest to pixels.
+/// Thickness of what lies deep in a body (full_cells.hpp): where nobody sees a single particle
+/// there are no edges to keep. Each adds its volume to four cells of a grid over the picture, of
+/// the coarsest whose cells, 2, 4, 8 … pixels wide, are no wider than the sprite's radius. Coarse
+/// grids are interpolated to finer ones, and the finest to pixels.
 class DeepThickness {
  public:
   /// @param places  of the particles

@@ -53,13 +53,15 @@ void SurfaceMaps::find(const PointsView& positions,
   milliseconds_.clear();
   stage("crowding", [&] {
     particles_.find(positions, camera, params.neighbor_distance(), params.radius,
-                    is_picture ? Neighborhoods::Deep::left_out : Neighborhoods::Deep::last, threads);
+                    is_picture ? Neighborhoods::Deep::left_out : Neighborhoods::Deep::last,
+                    threads);
     if (params.drop_radius) crowding_.find(particles_, threads);
   });
   const Records& particles = particles_.particles();
   const bool stretched = params.anisotropy > 0;
   if (stretched) {
-    stage("anisotropy", [&] { anisotropy_.find(particles_, particles.size(), params.anisotropy, threads); });
+    stage("anisotropy",
+          [&] { anisotropy_.find(particles_, particles.size(), params.anisotropy, threads); });
   }
   stage("sphere_depth", [&] {
     if (stretched) {
