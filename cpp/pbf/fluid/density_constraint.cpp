@@ -28,14 +28,21 @@ TensileTerms<Kernel> tensile_terms(const Discretization& disc, const SolverParam
 
 }  // namespace
 
-Real repulsion_at_rest(const Discretization& disc, const SolverParams& solver) {
-  if (solver.tensile_strength == 0) return 0;
-  return with_kernel(
-      disc.fluid.kernel_in_force(), disc.fluid.dimensions, disc.h, [&](const auto& kernel) {
-        const Real dq = solver.tensile_distance * disc.h, d = disc.fluid.spacing;
-        return solver.tensile_strength * std::pow(kernel.W(d * d) / kernel.W(dq * dq),
-                                                  static_cast<Real>(solver.tensile_exponent));
-      });
+void require_moderate_repulsion(const Discretization& disc, const SolverParams& solver) {
+  if (solver.tensile_strength == 0) return;
+  const Real dq = solver.tensile_distance * disc.h, d = disc.fluid.spacing;
+  const Real ratio = with_kernel(disc.fluid.kernel_in_force(), disc.fluid.dimensions, disc.h,
+                                 [&](const auto& W) { return W.W(d * d) / W.W(dq * dq); });
+  const Real repulsion = solver.tensile_strength *
+                         std::pow(ratio, static_cast<Real>(solver.tensile_exponent));  // s D_ideal
+  if (repulsion <= 1) return;
+  throw InvalidParameter(
+      "SolverParams.tensile_distance = " + to_text(solver.tensile_distance) +
+      " h: with tensile_strength = " + to_text(solver.tensile_strength) +
+      " and tensile_exponent = " + to_text(solver.tensile_exponent) +
+      " fluid at rest would repel itself like fluid compressed by " + to_text(100 * repulsion) +
+      " %; must be at most 100 %: a smaller distance, 0.1 to 0.3 h, a lower strength or a lower "
+      "exponent");
 }
 
 void relative_densities(const Neighborhood& near,

@@ -20,9 +20,9 @@ namespace pbf {
 /// Everything here gathers: particle i reads its neighbors and writes its own record. The sums are
 /// in density_constraint_lanes.hpp.
 
-/// s D_ideal at the rest distance: the constraint whose multiplier repels as much. With more than 1
-/// fluid at rest explodes, and shorter steps make it worse.
-Real repulsion_at_rest(const Discretization& disc, const SolverParams& solver);
+/// Throws InvalidParameter if s at the rest distance is more than the multiplier of C = 1: fluid at
+/// rest would explode, and shorter steps would make it worse.
+void require_moderate_repulsion(const Discretization& disc, const SolverParams& solver);
 
 /// (·, C_i + 1 = ρ_i/ρ0) for each particle; what stood in x, y, z stays.
 void relative_densities(const Neighborhood& near,

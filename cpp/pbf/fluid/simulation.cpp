@@ -32,10 +32,6 @@ void require_time(const char* name, Real time, Real shortest) {
   }
 }
 
-std::string particle_text(const PointsView& points, Index i) {
-  return "particle " + std::to_string(i) + " at " + to_text(Vec3(points.col(i)));
-}
-
 /// The kernel that the method is at its best with: pressures want one that both densities and
 /// gradients come from, or fluid at rest is heated (docs/convergence.md).
 FluidParams with_kernel_for(const SolverParams& solver, FluidParams fluid) {
@@ -61,84 +57,15 @@ Simulation::Simulation(const FluidParams& fluid,
 
 void Simulation::set_solver(const SolverParams& solver) {
   validate(solver);
-  if (const Real repulsion = repulsion_at_rest(disc_, solver); !(repulsion <= 1)) {
-    throw InvalidParameter(
-        "SolverParams.tensile_distance = " + to_text(solver.tensile_distance) +
-        " h: with tensile_strength = " + to_text(solver.tensile_strength) +
-        " and tensile_exponent = " + to_text(solver.tensile_exponent) +
-        " fluid at rest would repel itself like fluid compressed by " + to_text(100 * repulsion) +
-        " %; must be at most 100 %: a smaller distance, 0.1 to 0.3 h, a lower strength or a lower "
-        "exponent");
-  }
+  require_moderate_repulsion(disc_, solver);
   solver_ = solver;
 }
 
 Ids Simulation::add_particles(const PointsView& positions,
                               const std::optional<Points>& velocities) {
-  const Index added = positions.cols();
-  if (velocities && velocities->cols() != added) {
-    throw InvalidParameter("velocities: " + std::to_string(velocities->cols()) +
-                           " rows, but positions has " + std::to_string(added) + "; must be equal");
-  }
-  for (Index i = 0; i < added; ++i) {
-    const Vec3 x = positions.col(i);
-    if (!x.allFinite())
-      throw InvalidParameter("positions: " + particle_text(positions, i) + " m; must be finite");
-    if (velocities && !velocities->col(i).allFinite()) {
-      throw InvalidParameter("velocities: " + particle_text(*velocities, i) +
-                             " m/s; must be finite");
-    }
-    if (disc_.fluid.dimensions == 2) require_plane(positions, velocities, i);
-    if (!CellGrid::reaches(x, disc_.h)) {
-      throw InvalidParameter("positions: " + particle_text(positions, i) + " m; " +
-                             CellGrid::reach_text(disc_.h));
-    }
-    if (!disc_.contains(x)) {
-      throw InvalidParameter("positions: " + particle_text(positions, i) +
-                             " m is outside the domain; must be within " +
-                             to_text(disc_.domain->lower) + " and " + to_text(disc_.domain->upper) +
-                             " m");
-    }
-  }
-
   const Index before = size();
-  if (before + added > kMostParticles) {
-    throw InvalidParameter("positions: " + std::to_string(before + added) +
-                           " particles are more than the " + std::to_string(kMostParticles) +
-                           " that a simulation can hold");
-  }
-  const auto wrapped = [&](int axis, Real x) {
-    return disc_.domain ? disc_.domain->wrap(axis, x) : x;
-  };
-  State state = state_;
-  state.x.resize(before + added);
-  state.v.resize(before + added);
-  state.ids.resize(static_cast<std::size_t>(before + added));
-  state.totals.resize(static_cast<std::size_t>(before + added));
-  for (Index i = 0; i < added; ++i) {
-    const Vec3 x = positions.col(i);
-    const Vec3 v = velocities ? Vec3(velocities->col(i)) : Vec3(Vec3::Zero());
-    state.x[before + i] = {wrapped(0, x[0]), wrapped(1, x[1]), wrapped(2, x[2]), 0};
-    state.v[before + i] = {v[0], v[1], v[2], 0};
-    state.ids[static_cast<std::size_t>(before + i)] = static_cast<std::uint32_t>(before + i);
-  }
-  state_ = std::move(state);
-  return consecutive(before, added);
-}
-
-/// In 2-D all particles lie in the plane of the first one, and stay there.
-void Simulation::require_plane(const PointsView& positions,
-                               const std::optional<Points>& velocities,
-                               Index i) const {
-  const Real plane = size() > 0 ? state_.x[0].z : positions(2, 0);
-  if (positions(2, i) != plane) {
-    throw InvalidParameter("positions: " + particle_text(positions, i) + " m; z must be " +
-                           to_text(plane) + " m, that of the first particle, in 2-D");
-  }
-  if (velocities && (*velocities)(2, i) != 0) {
-    throw InvalidParameter("velocities: " + particle_text(*velocities, i) +
-                           " m/s; z must be 0 in 2-D");
-  }
+  state_ = with_particles(state_, positions, velocities, disc_);
+  return consecutive(before, positions.cols());
 }
 
 StepReport Simulation::step(Real dt) {

@@ -2,6 +2,7 @@
 
 #include "pbf/fluid/discretization.hpp"
 #include "pbf/fluid/pressure.hpp"
+#include "pbf/fluid/state.hpp"
 #include "pbf/fluid/step_report.hpp"
 
 #include <functional>
@@ -59,9 +60,6 @@ class Simulation {
   void set_solver(const SolverParams& solver);
 
  private:
-  void require_plane(const PointsView& positions,
-                     const std::optional<Points>& velocities,
-                     Index i) const;
   void sort_by_cell(Real dt);
   void unsort();
   void step_sorted(Real dt, StepReport& report);
@@ -77,13 +75,6 @@ class Simulation {
   double time_ = 0;
   std::int64_t step_count_ = 0;
 
-  /// Sorted by cell.
-  struct State {
-    Records x;                       // (x, λ)
-    Records v;                       // (v, ρ/ρ0)
-    std::vector<Real> totals;        // Λ
-    std::vector<std::uint32_t> ids;  // the row that a particle has outside
-  };
   State state_;
   Real last_dt_ = 0;  // of the step that totals belong to [s]
 

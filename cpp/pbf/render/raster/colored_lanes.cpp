@@ -8,25 +8,6 @@ namespace {
 
 using namespace raster;
 
-/// Vectors may begin at any pixel of the tile.
-constexpr int kWidth = kTileSide + kLanes;
-
-/// A tile's pixels: x and y of the rays through their middles.
-struct Rays {
-  alignas(64) float x[kWidth];
-  float y[kTileSide];
-  Rays(const SplatView& view, Tile tile) {
-    for (int k = 0; k < kWidth; ++k) {
-      const float pixel = static_cast<float>(tile.x + k) + 0.5F;
-      x[k] = (2.0F * pixel * (1.0F / view.width) - 1.0F) * view.half_width;
-    }
-    for (int k = 0; k < kTileSide; ++k) {
-      const float pixel = static_cast<float>(tile.y + k) + 0.5F;
-      y[k] = (2.0F * pixel * (1.0F / view.height) - 1.0F) * view.half_height;
-    }
-  }
-};
-
 /// Where rays enter a sphere, and how long they are in it (glsl/sphere_hit.glsl).
 struct Hit {
   Lanes front, chord;

@@ -118,4 +118,24 @@ PBF_INLINE PixelBox box_in(const Outline& at, raster::Tile tile) {
           inside(first_pixel(at.bottom), tile.y), inside(first_pixel(at.top), tile.y)};
 }
 
+/// Vectors may begin at any pixel of the tile.
+inline constexpr int kWidth = kTileSide + kLanes;
+
+/// A tile's pixels: x and y of the rays through their middles.
+struct Rays {
+  alignas(64) float x[kWidth];
+  float y[kTileSide];
+  PBF_INLINE Rays(const SplatView& view, raster::Tile tile) {
+    const auto fill = [](float* at, int count, int first, float pixels, float half)
+                          PBF_LAMBDA_INLINE {
+                            for (int k = 0; k < count; ++k) {
+                              const float pixel = static_cast<float>(first + k) + 0.5F;
+                              at[k] = (2.0F * pixel * (1.0F / pixels) - 1.0F) * half;
+                            }
+                          };
+    fill(x, kWidth, tile.x, view.width, view.half_width);
+    fill(y, kTileSide, tile.y, view.height, view.half_height);
+  }
+};
+
 }  // namespace pbf::PBF_ISA_NAMESPACE

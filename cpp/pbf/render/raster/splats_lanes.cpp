@@ -43,17 +43,13 @@ void project(const Record* particles,
   }
 }
 
-/// Vectors may begin at any pixel of the tile.
-constexpr int kWidth = kTileSide + kLanes;
-
-struct Workspace {
+struct Workspace : Rays {
+  using Rays::Rays;
   alignas(64) float depth[kTileSide * kWidth];
   alignas(64) float thickness[kTileSide * kWidth];
   alignas(64) float back[kTileSide * kWidth];      // depth [m], 0: none
   alignas(64) float inverse2[kTileSide * kWidth];  // 1 / |direction|²
   alignas(64) float length[kTileSide * kWidth];    // |direction|
-  alignas(64) float x[kWidth];                     // of the pixels' rays
-  float y[kTileSide];
 };
 
 struct Sprite {
@@ -141,15 +137,7 @@ void draw_tile(const Record* centers,
                float* thickness,
                float* back,
                std::ptrdiff_t pitch) {
-  Workspace work;
-  for (int x = 0; x < kWidth; ++x) {
-    const float pixel = static_cast<float>(tile.x + x) + 0.5F;
-    work.x[x] = (2.0F * pixel * (1.0F / view.width) - 1.0F) * view.half_width;
-  }
-  for (int y = 0; y < kTileSide; ++y) {
-    const float pixel = static_cast<float>(tile.y + y) + 0.5F;
-    work.y[y] = (2.0F * pixel * (1.0F / view.height) - 1.0F) * view.half_height;
-  }
+  Workspace work(view, tile);
   for (int y = 0; y < kTileSide; ++y) {
     for (int x = 0; x < kWidth; x += kLanes) {
       const int at = y * kWidth + x;
