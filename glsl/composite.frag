@@ -72,6 +72,14 @@ struct Ray {
   vec3 first;      // direction behind the surface
 };
 
+// Thickness over the length from the front to the far side, without what spheres stick out by before
+// and behind: what is less is air between.
+// @param end  no farther than this [m]
+float filling(float thickness, float length, float end) {
+  float sticking_out = min(1.2 * u_radius, 0.5 * length);
+  return thickness / max(min(length - sticking_out, end), LEAST_WAY * u_radius);
+}
+
 // Share of a ray's way that goes through fluid before it leaves it, as far as the picture knows.
 float share_in_fluid(Ray ray, float way) {
   float share = 0.0, inside = 1.0, from = 0.0;
@@ -83,7 +91,9 @@ float share_in_fluid(Ray ray, float way) {
     float behind = -at.z - depth_of(front);
     float before = depth_of(texelFetch(u_back, pixel, 0).r) + at.z;
     bool is_fluid = is_surface(front) && at.z < 0.0;
-    inside *= is_fluid ? clamp(0.5 + min(behind, before) / u_radius, 0.0, 1.0) : 0.0;
+    float within = clamp(0.5 + min(behind, before) / u_radius, 0.0, 1.0);
+    float filled = filling(texelFetch(u_thickness, pixel, 0).r, behind + before, behind + before);
+    inside *= is_fluid ? within * min(filled, 1.0) : 0.0;
     share += inside * (to - from);
     from = to;
   }
@@ -170,11 +180,12 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   // A drop's far side bends the ray once more by as much as the near one. So does a sheet, behind
   // which there is air before there is more.
   vec3 twice = to_world(refract(view, n, eta * eta));
-  // Without what spheres stick out by before and behind, and through the wall.
-  float inner = min(straight - min(1.2 * u_radius, 0.5 * straight), to_end);
   float least = LEAST_WAY * u_radius;
-  float filled = thickness / max(inner, least);
-  float solid = body * smoothstep(0.55, 0.9, filled);
+  float filled = filling(thickness, straight, to_end);
+  // More fluid than there is room for: back_smooth has joined the far side to that of a drop, which
+  // is nearer than the surface here.
+  float known = 1.0 - smoothstep(1.5, 2.5, thickness / max(straight, least));
+  float solid = body * smoothstep(0.55, 0.9, filled) * known;
   is_bound *= step(1.0, body) * smoothstep(0.35, 0.75, filled);
   solid = max(solid, is_bound);
   float length = mix(thickness, way * thickness / max(straight, least), solid);
@@ -239,8 +250,8 @@ struct Shade {
   vec3 clear;
 };
 
-// The surface that a drop hides: the mean of the normals around the drop where fluid is farther
-// away; 0 if there is none.
+// The surface that a drop hides: the mean of four normals around the drop, 0 where no fluid is
+// farther away. The less of them there are, the less is known of what the drop hides.
 vec3 normal_behind(ivec2 pixel, float depth) {
   vec3 sum = vec3(0.0);
   int away = int(2.5 * u_drop_radius * pixels_per_meter(depth)) + 2;
@@ -252,7 +263,30 @@ vec3 normal_behind(ivec2 pixel, float depth) {
     bool farther = is_surface(a) && depth_of(a) > depth + 2.0 * u_drop_radius;
     sum += farther ? texelFetch(u_normal, at, 0).xyz : vec3(0.0);
   }
-  return dot(sum, sum) > 0.0 ? normalize(sum) : sum;
+  return 0.25 * sum;
+}
+
+// The way through a drop [m].
+float chord_of_drop(vec3 view, vec3 n) {
+  return 2.0 * u_drop_radius * clamp(-dot(view, n), 0.0, 1.0);
+}
+
+// What the surface behind a drop adds to the drop: as far as the drop lets light through it mirrors,
+// and below it the ray goes on more steeply.
+struct Behind {
+  vec3 mirrored;   // share of its light that the surface mirrors
+  vec3 direction;  // where that comes from
+  float way;       // through the fluid behind, over that straight on
+};
+
+Behind behind_drop(vec3 view, vec3 n, vec3 hidden, float body) {
+  float known2 = dot(hidden, hidden);
+  float share = (1.0 - body) * known2;
+  vec3 normal = hidden / sqrt(max(known2, 1e-12));
+  float c = clamp(-dot(view, normal), 0.0, 1.0);
+  float bent = sqrt(1.0 - (1.0 - c * c) / (u_refractive_index * u_refractive_index));
+  return Behind(share * fresnel(c, u_refractive_index) * transmittance(chord_of_drop(view, n)),
+                reflect(view, normal), mix(1.0, c / max(bent, 1e-6), share));
 }
 
 // @param to_mesh  length of the straight way to a mesh [m]
@@ -280,16 +314,15 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
     ray.way = min(ray.way, way);
   }
 #endif
+  Behind also = behind_drop(view, n, hidden, body);
+  float own = min(chord_of_drop(view, n), ray.way);
+  ray.way = own + (ray.way - own) * also.way;
   vec3 left = transmittance(ray.way);
   vec3 up_facing = to_world(n);
   float lit = 0.60 + 0.25 * dot(up_facing, u_up) + 0.35 * dot(up_facing, u_sun);
   vec3 through = behind.rgb * left + body_color() * lit * (1.0 - left);
-  // What a drop hides mirrors too.
-  vec3 second = to_world(reflect(view, hidden));
-  float also = (1.0 - body) * dot(hidden, hidden) *
-               fresnel(clamp(-dot(view, hidden), 0.0, 1.0), u_refractive_index);
-  through = mix(through, MIRRORED(second, SPREAD).rgb, also);
-  vec3 clear = (1.0 - mirrored) * (1.0 - also) * (1.0 - behind.a) * left;
+  through = mix(through, MIRRORED(to_world(also.direction), SPREAD).rgb, also.mirrored);
+  vec3 clear = (1.0 - mirrored) * (1.0 - also.mirrored) * (1.0 - behind.a) * left;
   return Shade(mix(through, reflection, mirrored), clear);
 }
 

@@ -63,7 +63,7 @@ void main() {
   float m12 = ray.x * ray.y - t.x * t.y;
   float m22 = 1.0 + ray.y * ray.y - t.y * t.y;
 
-  float scale = crowding_of(texelFetch(u_spheres, pixel, 0).r) * pixels_per_meter(depth_of(a));
+  float scale = smoothing_share(texelFetch(u_spheres, pixel, 0).r) * pixels_per_meter(depth_of(a));
   float far = 0.5 * (u_stages * u_stages + u_stages);  // in steps of one stage
   float time = min(u_variance * scale * scale, 0.45 * far / (m11 + m22));
   float flow = time / far * (m11 * a_xx + 2.0 * m12 * a_xy + m22 * a_yy);

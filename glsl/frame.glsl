@@ -44,6 +44,10 @@ float with_crowding(float a, float crowding) {
 }
 float crowding_of(float a) { return 1.0 - float(floatBitsToUint(a) & 3u) / 3.0; }
 
+// How far depth is smoothed there, over a body. A drop is round already; where a few particles have
+// met, a kernel as wide as their sprites would leave a flat disc of each, and a ninth joins them.
+float smoothing_share(float a) { return crowding_of(a) * crowding_of(a); }
+
 // The viewing ray of a point of the picture [pixels]: origin + d * direction, d the depth.
 vec3 ray_origin(vec2 pixel) {
   vec2 p = (2.0 * pixel / u_size.xy - 1.0) * u_lens.xy;

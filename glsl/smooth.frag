@@ -112,8 +112,7 @@ void main() {
     radius *= pixels_per_meter(depth_of(sphere));
   } else {
     if (!is_surface(value)) return;
-    // A drop is round already: its kernel shrinks with the crowding.
-    radius *= crowding_of(sphere) * pixels_per_meter(depth_of(value));
+    radius *= smoothing_share(sphere) * pixels_per_meter(depth_of(value));
     window = Window(farther(value, u_range), nearer(value, u_range), farther(value, u_behind));
   }
   radius = min(radius, MOST_PIXELS);

@@ -231,22 +231,25 @@ TEST_CASE("smooth: the kernel shrinks with distance as things do") {
   }
 }
 
-TEST_CASE("smooth: a drop stays as round as it is, a small group is smoothed a little") {
+TEST_CASE("smooth: a drop stays as it is, a kernel is as wide as the square of the crowding") {
   const GlFixture gl;
   const auto bump = [](int x, int y) {
     return 1 / (kHere - 0.05 * std::exp(-0.02 * ((x - 32) * (x - 32) + (y - 24) * (y - 24))));
   };
-  const LayerFilter filter = depth_of(Smoothing::bilateral, 0.3F, 0.4F);
   for (const Way way : kWays) {
-    const auto at_level = [&](std::uint32_t level) {
-      return smooth(way, gl, filter, bump, [&](int, int) { return with_level(0.5, level); });
+    const auto peak = [&](Real radius, std::uint32_t level) {  // its depth [m]
+      const auto result = smooth(way, gl, depth_of(Smoothing::bilateral, radius, 0.4F), bump,
+                                 [&](int, int) { return with_level(0.5, level); });
+      if (level == 3) CHECK(result == gl.read(gl.texture(bump)));
+      return 1 / result[gl.at(32, 24)];
     };
-    CHECK(at_level(3) == gl.read(gl.texture(bump)));
-    double last = 1 / at_level(3)[gl.at(32, 24)];  // depth of the peak
+    double last = peak(0.6F, 3);
     for (const std::uint32_t level : {2U, 1U, 0U}) {
-      const double peak = 1 / at_level(level)[gl.at(32, 24)];
-      CHECK(peak > last + 1e-4);
-      last = peak;
+      const Real share = std::pow(1 - static_cast<Real>(level) / 3, 2.0F);
+      const double found = peak(0.6F, level);
+      CHECK(found > last + 1e-4);
+      CHECK(found == doctest::Approx(peak(0.6F * share, 0)).epsilon(1e-6));
+      last = found;
     }
   }
 }

@@ -78,7 +78,7 @@ void stage(const FlowTerms& terms,
       const Lanes m12 = ray_x * ray_y - t_x * t_y;
       const Lanes m22 = one + ray_y * ray_y - t_y * t_y;
 
-      Lanes scale = crowding_of(load_lanes(spheres.row(tile.y + row) + tile.x + column)) *
+      Lanes scale = smoothing_share(load_lanes(spheres.row(tile.y + row) + tile.x + column)) *
                     Lanes(terms.pixels_per_meter);
       if (terms.perspective) scale *= a;
       const Lanes time =

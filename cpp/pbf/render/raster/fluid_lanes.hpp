@@ -28,7 +28,7 @@ PBF_INLINE Lanes coverage(const Texels& depth, int x, int y) {
   return (row(y - 1) + Lanes(2) * row(y) + row(y + 1)) * Lanes(1.0F / 16);
 }
 
-/// What a drop hides: the mean of the normals around it where fluid is farther away.
+/// What a drop hides: the mean of four normals around it, where fluid is farther away.
 PBF_INLINE Vec3Lanes
 normal_behind(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes depth) {
   Vec3Lanes sum{0.0F, 0.0F, 0.0F};
@@ -44,7 +44,33 @@ normal_behind(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes
         is_surface(a) & (depth_of(scene.frame, a) > depth + Lanes(2 * terms.drop_radius));
     sum += select(farther, fetch(terms.normal, column, row), Vec3Lanes{0.0F, 0.0F, 0.0F});
   }
-  return select(dot(sum, sum) > Lanes(0.0F), normalize(sum), sum);
+  return Lanes(0.25F) * sum;
+}
+
+/// The way through a drop [m].
+PBF_INLINE Lanes chord_of_drop(const FluidTerms& terms, const Vec3Lanes& view, const Vec3Lanes& n) {
+  return Lanes(2 * terms.drop_radius) * clamp(-dot(view, n), 0.0F, 1.0F);
+}
+
+/// What the surface behind a drop adds to the drop.
+struct Behind {
+  Vec3Lanes mirrored;   // share of its light that the surface mirrors
+  Vec3Lanes direction;  // where that comes from
+  Lanes way;            // through the fluid behind, over that straight on
+};
+
+PBF_INLINE Behind behind_drop(const FluidTerms& terms,
+                              const Vec3Lanes& view,
+                              const Vec3Lanes& n,
+                              const Vec3Lanes& hidden,
+                              Lanes body) {
+  const float index = terms.refractive_index;
+  const Lanes known2 = dot(hidden, hidden), share = (Lanes(1) - body) * known2;
+  const Vec3Lanes normal = (Lanes(1) / sqrt(max(known2, 1e-12F))) * hidden;
+  const Lanes c = clamp(-dot(view, normal), 0.0F, 1.0F);
+  const Lanes bent = sqrt(Lanes(1) - (Lanes(1) - c * c) * Lanes(1 / (index * index)));
+  const Vec3Lanes passes = exp(-chord_of_drop(terms, view, n) * lanes(terms.absorption));
+  return {(share * fresnel(c, index)) * passes, reflect(view, normal), mix(1.0F, c / max(bent, 1e-6F), share)};
 }
 
 PBF_INLINE Vec3Lanes upright_at_floor(const Scene& scene,
@@ -131,23 +157,24 @@ PBF_INLINE Shade fluid(const Scene& scene,
     behind = select(hit.meets, RgbaLanes{hit.light, 1.0F}, behind);
     bent.ray.way = select(hit.meets, min(bent.ray.way, hit.way), bent.ray.way);
   }
+  Behind also = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}, 1.0F};
+  if (any((at.body < Lanes(1)) & at.wanted)) {
+    const Vec3Lanes hidden = normal_behind(scene, terms, column, row, depth);
+    also = behind_drop(terms, view, n, hidden, at.body);
+    const Lanes own = min(chord_of_drop(terms, view, n), bent.ray.way);
+    bent.ray.way = own + (bent.ray.way - own) * also.way;
+  }
   const Vec3Lanes left = exp(-bent.ray.way * lanes(terms.absorption));
   const Vec3Lanes up_facing = to_world(frame, n);
   const Lanes lit = Lanes(0.60F) + Lanes(0.25F) * dot(up_facing, lanes(e.up)) +
                     Lanes(0.35F) * dot(up_facing, lanes(e.sun));
   const Vec3Lanes one{1.0F, 1.0F, 1.0F};
   Vec3Lanes through = behind.rgb * left + (lit * body_color(terms, pixel)) * (one - left);
-  Lanes passes = (Lanes(1) - mirrored) * (Lanes(1) - behind.a);
-  if (any((at.body < Lanes(1)) & at.wanted)) {
-    // What a drop hides mirrors too.
-    const Vec3Lanes hidden = normal_behind(scene, terms, column, row, depth);
-    const Lanes also = (Lanes(1) - at.body) * dot(hidden, hidden) *
-                       fresnel(clamp(-dot(view, hidden), 0.0F, 1.0F), terms.refractive_index);
-    if (any((also > Lanes(0.0F)) & at.wanted)) {
-      const Vec3Lanes second = to_world(frame, reflect(view, hidden));
-      through = mix(through, light_from(scene, e.mirrored, second, kSpread).rgb, also);
-      passes *= Lanes(1) - also;
-    }
+  Vec3Lanes passes = ((Lanes(1) - mirrored) * (Lanes(1) - behind.a)) * (one - also.mirrored);
+  const Vec3Lanes& share = also.mirrored;
+  if (any((max(share.x, max(share.y, share.z)) > Lanes(0.0F)) & at.wanted)) {
+    const Vec3Lanes second = to_world(frame, also.direction);
+    through += share * (light_from(scene, e.mirrored, second, kSpread).rgb - through);
   }
   return {mix(through, reflection, mirrored), passes * left};
 }

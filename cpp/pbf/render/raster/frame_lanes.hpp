@@ -16,6 +16,8 @@ PBF_INLINE Lanes crowding_of(Lanes a) {
   return Lanes(1) - Lanes(__builtin_convertvector(level, Lanes::Vector)) / Lanes(3);
 }
 
+PBF_INLINE Lanes smoothing_share(Lanes a) { return crowding_of(a) * crowding_of(a); }
+
 PBF_INLINE Lanes farther(bool perspective, Lanes a, float length) {
   if (!perspective) return Lanes(length);
   return a * a * Lanes(length) / (Lanes(1) + a * Lanes(length));

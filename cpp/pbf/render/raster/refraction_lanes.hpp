@@ -21,6 +21,13 @@ struct Ray {
   Lanes way;            // length in the fluid so far [m]
 };
 
+/// Thickness over the length from the front to the far side, without what spheres stick out by
+/// before and behind: what is less is air between. @param end  no farther than this [m]
+PBF_INLINE Lanes filling(const FluidTerms& terms, Lanes thickness, Lanes length, Lanes end) {
+  const Lanes sticking_out = min(1.2F * terms.radius, Lanes(0.5F) * length);
+  return thickness / max(min(length - sticking_out, end), kLeastWay * terms.radius);
+}
+
 /// Share of a ray's way that goes through fluid before it leaves it, as far as the picture knows.
 PBF_INLINE Lanes share_in_fluid(const Scene& scene,
                                 const FluidTerms& terms,
@@ -41,7 +48,8 @@ PBF_INLINE Lanes share_in_fluid(const Scene& scene,
     const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
     const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
     const Lanes within = Lanes(0.5F) + min(behind, before) * Lanes(1 / terms.radius);
-    inside *= select(is_fluid, clamp(within, 0.0F, 1.0F), 0.0F);
+    const Lanes filled = filling(terms, fetch(terms.thickness, x, y), behind + before, behind + before);
+    inside *= select(is_fluid, clamp(within, 0.0F, 1.0F) * min(filled, 1.0F), 0.0F);
     share += inside * Lanes(to - from);
     from = to;
   }
@@ -145,12 +153,14 @@ PBF_INLINE Refracted refracted(const Scene& scene,
     way = clamp(found, 0.0F, Lanes(3) * straight);
   }
   const Lanes gap = to_end - way;
-  const Lanes sticking_out = min(1.2F * terms.radius, Lanes(0.5F) * straight);
   const Lanes least = kLeastWay * terms.radius;
-  const Lanes filled = thickness / max(min(straight - sticking_out, to_end), least);
+  const Lanes filled = filling(terms, thickness, straight, to_end);
   const Lanes is_bound = (Lanes(1) - smoothstep(0.5F * terms.radius, 3 * terms.radius, gap)) *
                          select(Lanes(1) <= body, smoothstep(0.35F, 0.75F, filled), 0.0F);
-  const Lanes solid = max(body * smoothstep(0.55F, 0.9F, filled), is_bound);
+  // More fluid than there is room for: back_smooth has joined the far side to that of a drop, which
+  // is nearer than the surface here.
+  const Lanes known = Lanes(1) - smoothstep(1.5F, 2.5F, thickness / max(straight, least));
+  const Lanes solid = max(body * smoothstep(0.55F, 0.9F, filled) * known, is_bound);
   const Vec3Lanes twice = to_world(frame, refract(view, n, eta * eta));
   Vec3Lanes direction = twice;
   if (any((solid > Lanes(0.0F)) & (is_bound < Lanes(1)) & wanted)) {

@@ -33,7 +33,7 @@ PBF_INLINE Lanes gap_radius(const SmoothTerms& terms, Lanes radius) {
 PBF_INLINE Lanes radius_at(const SmoothTerms& terms, Lanes value, Lanes sphere) {
   const Lanes depth = terms.thickness ? sphere : value;
   Lanes radius(terms.radius);
-  if (!terms.thickness) radius *= crowding_of(sphere);
+  if (!terms.thickness) radius *= smoothing_share(sphere);
   if (terms.perspective) radius *= depth;
   if (terms.thickness) radius = select(value > Lanes(0), radius, Lanes(0));
   radius = min(select(depth > Lanes(kLeastSurface), radius, Lanes(0)), Lanes(kMostPixels));
