@@ -164,8 +164,8 @@ def taylor_green() -> Image:
 def drops() -> Image:
     """Show single drops of the double dam break from near."""
     scene = pbf.Scene.builtin("double_dam_break", spacing=0.015)
-    camera = {"eye": [1.8, 1.0, 1.15], "target": [1.5, 0.86, 0.25], "fov_y": 22.0}
-    return draw(scene.replace(camera=camera), state_of(scene, 0.7))
+    camera = {"eye": [1.8, 1.0, 1.15], "target": [1.5, 0.93, 0.25], "fov_y": 22.0}
+    return draw(scene.replace(camera=camera, supersampling=2), state_of(scene, 0.7))
 
 
 def liquids() -> Image:
@@ -220,7 +220,7 @@ def paper() -> Image:
 def knot() -> Image:
     """Show a knot that stands in a pool: before, in and behind the water, and its shadow."""
     scene = pbf.Scene.load(SCENES / "pond.toml")
-    t = np.linspace(0, 2 * np.pi, 240, endpoint=False)
+    t = np.linspace(0, 2 * np.pi, 720, endpoint=False)
     axis = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)])
     mesh = tube([0.46, 0.122, 0.3] + 0.036 * axis.T, radius=0.022, color=(0.7, 0.2, 0.05))
     return draw(scene, state_of(scene, 0.3), meshes=[mesh])
@@ -228,7 +228,7 @@ def knot() -> Image:
 
 def tube(axis: npt.NDArray[np.float64], radius: float, color: tuple[float, ...]) -> pbf.Mesh:
     """Make a closed tube around a closed line of points."""
-    count, sides = len(axis), 40
+    count, sides = len(axis), 120
     along = np.roll(axis, -1, axis=0) - np.roll(axis, 1, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     out = axis - axis.mean(axis=0)  # any direction that is not along the line
