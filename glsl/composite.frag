@@ -72,8 +72,8 @@ struct Ray {
   vec3 first;      // direction behind the surface
 };
 
-// Thickness over the length from the front to the far side, without what spheres stick out by before
-// and behind: what is less is air between.
+// Thickness over the length from the front to the far side, without what spheres stick out by
+// before and behind: what is less is air between.
 // @param end  no farther than this [m]
 float filling(float thickness, float length, float end) {
   float sticking_out = min(1.2 * u_radius, 0.5 * length);
@@ -271,8 +271,8 @@ float chord_of_drop(vec3 view, vec3 n) {
   return 2.0 * u_drop_radius * clamp(-dot(view, n), 0.0, 1.0);
 }
 
-// What the surface behind a drop adds to the drop: as far as the drop lets light through it mirrors,
-// and below it the ray goes on more steeply.
+// What the surface behind a drop adds to the drop: as far as the drop lets light through it
+// mirrors, and below it the ray goes on more steeply.
 struct Behind {
   vec3 mirrored;   // share of its light that the surface mirrors
   vec3 direction;  // where that comes from

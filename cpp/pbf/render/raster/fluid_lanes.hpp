@@ -70,7 +70,8 @@ PBF_INLINE Behind behind_drop(const FluidTerms& terms,
   const Lanes c = clamp(-dot(view, normal), 0.0F, 1.0F);
   const Lanes bent = sqrt(Lanes(1) - (Lanes(1) - c * c) * Lanes(1 / (index * index)));
   const Vec3Lanes passes = exp(-chord_of_drop(terms, view, n) * lanes(terms.absorption));
-  return {(share * fresnel(c, index)) * passes, reflect(view, normal), mix(1.0F, c / max(bent, 1e-6F), share)};
+  return {(share * fresnel(c, index)) * passes, reflect(view, normal),
+          mix(1.0F, c / max(bent, 1e-6F), share)};
 }
 
 PBF_INLINE Vec3Lanes upright_at_floor(const Scene& scene,

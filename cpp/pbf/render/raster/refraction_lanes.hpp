@@ -48,7 +48,8 @@ PBF_INLINE Lanes share_in_fluid(const Scene& scene,
     const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
     const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
     const Lanes within = Lanes(0.5F) + min(behind, before) * Lanes(1 / terms.radius);
-    const Lanes filled = filling(terms, fetch(terms.thickness, x, y), behind + before, behind + before);
+    const Lanes length = behind + before;
+    const Lanes filled = filling(terms, fetch(terms.thickness, x, y), length, length);
     inside *= select(is_fluid, clamp(within, 0.0F, 1.0F) * min(filled, 1.0F), 0.0F);
     share += inside * Lanes(to - from);
     from = to;
