@@ -20,7 +20,7 @@ uniform int u_has_tint;            // 1: the fluid has its particles' colors
 layout(location = 0) out vec4 o_color;
 
 const float SPREAD = 3.0;       // of rays from a body's surface, in that of a pixel
-const float LEAST_WAY = 1e-4;   // in the fluid: others count as this [sprites' radii]
+const float LEAST_WAY = 1e-4;   // in the fluid; shorter ones count as this [sprites' radii]
 const int MESH_STEPS = 24;      // of a ray that looks for a mesh
 
 // Share of unpolarized light that a smooth dielectric mirrors (Fresnel); c is the cosine of

@@ -5,7 +5,8 @@
 // The half of glsl/composite.frag that follows a ray through the fluid.
 namespace pbf::PBF_ISA_NAMESPACE {
 
-inline constexpr float kLeastWay = 1e-4F;  // in the fluid: others count as this [sprites' radii]
+// In the fluid; shorter ones count as this [sprites' radii].
+inline constexpr float kLeastWay = 1e-4F;
 
 PBF_INLINE Lanes fresnel(Lanes c, float index) {
   const Lanes g = sqrt(max(Lanes(index * index - 1) + c * c, 1e-6F));
