@@ -78,6 +78,11 @@ target_link_libraries(pbf_render
 target_compile_options(pbf_render PRIVATE ${PBF_FLOAT_OPTIONS})
 
 # The loops over particles and pixels.
+# Thousands of vectors live on its stack; to watch each takes GCC a quarter of an hour.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "sanitize=address")
+  set_source_files_properties(pbf/render/raster/composite_lanes.cpp PROPERTIES
+    COMPILE_OPTIONS "--param=asan-stack=0;-fno-sanitize-address-use-after-scope")
+endif()
 pbf_add_lanes(pbf_render
   pbf/render/extent_lanes.cpp
   pbf/render/full_cells_lanes.cpp

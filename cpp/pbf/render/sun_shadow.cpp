@@ -187,7 +187,8 @@ SunShadow sun_shadow(const PointsView& positions,
     for (int c = 0; c < 3; ++c) {
       const Real left = std::exp(-params.absorption[c] * t[static_cast<std::size_t>(k)]) *
                         (1 - cover[static_cast<std::size_t>(k)]);
-      texel_data[c] = static_cast<std::uint8_t>(255 * left + 0.5F);
+      const Real rounded = 255 * left + 0.5F;
+      texel_data[c] = static_cast<std::uint8_t>(rounded);
     }
     texel_data[3] = 255;
   });

@@ -18,18 +18,8 @@ struct Surroundings {
 };
 
 /// Texture units of the passes that make the picture.
-enum Unit {
-  kDepth,
-  kThickness,
-  kNormal,
-  kShadow,
-  kMap,
-  kMeshLight,
-  kMeshDepth,
-  kSpheres,
-  kTint,
-  kBack
-};
+inline constexpr int kDepth = 0, kThickness = 1, kNormal = 2, kShadow = 3, kMap = 4, kMeshLight = 5,
+                     kMeshDepth = 6, kSpheres = 7, kTint = 8, kBack = 9;
 
 /// The functions that stand for what is asked for, by their names in glsl/environment.glsl and
 /// display.glsl.

@@ -62,7 +62,7 @@ void DeepThickness::find(const PointsView& positions,
   for (int level = kLevels; level > 0; --level) {
     const bool is_used = deposit_.has(level);
     if (!is_used && cells_.empty()) continue;
-    const auto [width, height] = sizes_[level];
+    const int width = sizes_[level].width, height = sizes_[level].height;
     finer_.assign(static_cast<std::size_t>(width) * height, 0);
     if (is_used) deposit_.add_to(finer_, level, threads);
     if (!cells_.empty()) {

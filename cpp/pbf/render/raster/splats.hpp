@@ -19,7 +19,7 @@ class Splats {
   /// @param particles  behind the last there must be kMostLanes that can be read
   /// @param stretches  of ellipsoids (Anisotropy), two for each; null: spheres
   void bin(const Record* particles,
-           Index count,
+           Index n,
            const SplatView& view,
            int threads,
            const Record* stretches = nullptr);
