@@ -6,8 +6,7 @@
 
 using namespace pbf;
 
-TEST_CASE(
-    "nearest_front: of the spheres that reach into the picture the nearest") {
+TEST_CASE("nearest_front: of the spheres that reach into the picture the nearest") {
   Camera camera;
   camera.eye = {0, 0, 5};
   camera.target = {0, 0, 0};
