@@ -117,8 +117,8 @@ float way_inside(Ray ray, float most) {
 }
 
 // On through the fluid to the floor, or out through a wall of the tank; a wall that it meets too
-// flat mirrors it. What the bottom mirrors is too flat for a level surface as well, and goes to and
-// fro between both as far as the next wall.
+// flat mirrors it. What the bottom mirrors is too flat for a level surface as well, and goes back
+// and forth between both as far as the next wall.
 void follow_to_wall_or_floor(inout Ray ray) {
   bool inside = true, off_bottom = false;
   for (int k = 0; k < 2; ++k) {

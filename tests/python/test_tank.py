@@ -50,7 +50,7 @@ def encoded(light):
 
 @pytest.mark.parametrize("deep", [0.1, 0.3])
 def test_a_bottom_over_air_mirrors_what_meets_it_flat(renderer, deep):
-    # Between bottom and surface the light goes to and fro, however deep the water is.
+    # Between bottom and surface the light goes back and forth, however deep the water is.
     far, absorption = 0.9, 1.2
     camera = from_above(20, 0, np.array([0.4, deep / 2, far]))
     params = PLAIN.replace(
