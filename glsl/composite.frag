@@ -130,7 +130,8 @@ void follow_to_wall_or_floor(inout Ray ray) {
     float to_surface = k == 0 || !inside ? way : way_inside(ray, way);
     ray.way += off_bottom ? way : to_surface;
     ray.at += way * ray.direction;
-    bool comes_down = off_bottom && mod(floor(way / max(to_surface, LEAST_WAY * u_radius)), 2.0) > 0.5;
+    float passes = floor(way / max(to_surface, LEAST_WAY * u_radius));
+    bool comes_down = off_bottom && mod(passes, 2.0) > 0.5;
     ray.direction -= comes_down ? 2.0 * dot(ray.direction, u_up) * u_up : vec3(0.0);
     vec3 bent = refract(ray.direction, -outward, u_refractive_index);
     bool mirrors = dot(bent, bent) < 0.5;

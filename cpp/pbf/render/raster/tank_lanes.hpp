@@ -29,7 +29,8 @@ PBF_INLINE Wall nearest_wall(const Environment& e,
                              const Vec3Lanes& direction) {
   if (!e.has_tank) return {kNowhere, {0.0F, 0.0F, 0.0F}};
   const Mask goes_down = dot(direction, lanes(e.up)) < Lanes(0.0F);
-  const Lanes surface = bottom_is_wall(e, terms) ? select(goes_down, 0.0F, kNowhere) : Lanes(kNowhere);
+  const Lanes surface =
+      bottom_is_wall(e, terms) ? select(goes_down, 0.0F, kNowhere) : Lanes(kNowhere);
   struct Side {
     Lanes way, sign;
   };
