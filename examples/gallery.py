@@ -105,7 +105,8 @@ def speed() -> Image:
     scene = pbf.Scene.builtin("dam_break", color_by="speed", color_range=[0.0, 4.0])
     state = state_of(scene, 0.5)
     # The tank on the left of each half leaves room for the legend.
-    scene = scene.replace(camera={"target": [1.2, 0.45, 0.25], "eye": [1.9, 1.3, 4.2], "fov_y": 30})
+    camera = {"target": [1.2, 0.45, 0.25], "eye": [1.9, 1.3, 4.2], "fov_y": 30}
+    scene = scene.replace(camera=camera, supersampling=2)
     half = (SIZE[0] // 2, 480)
     return beside(
         draw(scene.replace(legend=""), state, half),
@@ -212,7 +213,9 @@ def paper() -> Image:
     scene = pbf.Scene.load(SCENES / "crown.toml")
     juice = {"absorption": [6.0, 40.0, 190.0], "scatter": [0.75, 0.24, 0.01]}
     look = {"background": "transparent", "reflection": "sky", "floor": False}
-    image = draw(scene.replace(render=juice | look), state_of(scene, 0.075))
+    # From before the front: a side that is seen flat mirrors the sky, not the juice.
+    scene = scene.replace(camera={"eye": [0.5, 0.45, 1.28]}, render=juice | look)
+    image = draw(scene, state_of(scene, 0.075))
     alpha = image[..., 3:] / 255
     return np.rint(alpha * image + (1 - alpha) * 255).astype(np.uint8)
 

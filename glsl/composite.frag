@@ -22,6 +22,7 @@ layout(location = 0) out vec4 o_color;
 const float SPREAD = 3.0;       // of rays from a body's surface, in that of a pixel
 const float LEAST_WAY = 1e-4;   // in the fluid; shorter ones count as this [sprites' radii]
 const int MESH_STEPS = 24;      // of a ray that looks for a mesh
+const int EXIT_STEPS = 6;       // of one that looks for its way out of the fluid
 
 // Share of unpolarized light that a smooth dielectric mirrors (Fresnel); c is the cosine of
 // incidence.
@@ -44,23 +45,30 @@ vec3 upright_at_floor(vec3 n, vec3 position) {
   return normalize(n - nearness * min(dot(n, up), 0.0) * up);
 }
 
-// How far it is to the tank's wall from inside. Floor and surface are none.
+float tank_bottom() { return min(dot(u_tank_lower, u_up), dot(u_tank_upper, u_up)); }
+
+// Whether there is air below the tank, as beyond its walls.
+bool bottom_is_wall() {
+  return u_has_floor == 0 || tank_bottom() > u_floor_height + 0.5 * u_radius;
+}
+
+// How far it is to the tank's wall from inside. A bottom on the floor and the surface are none.
 float distance_to_wall(vec3 point, vec3 direction, out vec3 outward) {
   vec3 side = mix(vec3(-1.0), vec3(1.0), step(0.0, direction));
   vec3 face = mix(u_tank_lower, u_tank_upper, step(0.0, direction));
   vec3 way = (face - clamp(point, u_tank_lower, u_tank_upper)) / (side * max(abs(direction), 1e-6));
-  way += NOWHERE * step(0.9, abs(u_up));
+  bool goes_down = bottom_is_wall() && dot(direction, u_up) < 0.0;
+  way += goes_down ? vec3(0.0) : NOWHERE * step(0.9, abs(u_up));
   float nearest = min(way.x, min(way.y, way.z));
   outward = side * vec3(lessThanEqual(way, vec3(nearest)));
   return u_has_tank == 1 ? nearest : NOWHERE;
 }
 
-// How far it is to the floor or the tank's bottom.
+// How far it is to the floor or the tank's bottom that stands on it.
 float distance_to_ground(vec3 point, vec3 direction) {
   float down = -dot(direction, u_up);
-  float bottom = min(dot(u_tank_lower, u_up), dot(u_tank_upper, u_up));
-  bool ends = u_has_tank == 1 && down > 1e-4;
-  float to_bottom = ends ? max(dot(point, u_up) - bottom, 0.0) / down : NOWHERE;
+  bool ends = u_has_tank == 1 && !bottom_is_wall() && down > 1e-4;
+  float to_bottom = ends ? max(dot(point, u_up) - tank_bottom(), 0.0) / down : NOWHERE;
   return min(to_bottom, distance_to_floor(point, direction));
 }
 
@@ -80,43 +88,69 @@ float filling(float thickness, float length, float end) {
   return thickness / max(min(length - sticking_out, end), LEAST_WAY * u_radius);
 }
 
-// Share of a ray's way that goes through fluid before it leaves it, as far as the picture knows.
-float share_in_fluid(Ray ray, float way) {
-  float share = 0.0, inside = 1.0, from = 0.0;
-  for (int k = 1; k <= 3; ++k) {
-    float to = float(k * k) / 9.0;
-    vec3 at = mat3(u_view) * (ray.at + 0.5 * (from + to) * way * ray.direction - u_eye);
-    ivec2 pixel = ivec2(clamp(pixel_of(at), vec2(0.0), u_size.xy - 1.0));
-    float front = texelFetch(u_depth, pixel, 0).r;
-    float behind = -at.z - depth_of(front);
-    float before = depth_of(texelFetch(u_back, pixel, 0).r) + at.z;
-    bool is_fluid = is_surface(front) && at.z < 0.0;
-    float within = clamp(0.5 + min(behind, before) / u_radius, 0.0, 1.0);
-    float filled = filling(texelFetch(u_thickness, pixel, 0).r, behind + before, behind + before);
-    inside *= is_fluid ? within * min(filled, 1.0) : 0.0;
-    share += inside * (to - from);
+// How far inside the fluid that the picture shows a point of a ray is: negative from a sprite's
+// radius outside on, as far as filters move the far side at a wall, and where there is more air
+// than fluid between front and far side.
+float inside_fluid(Ray ray, float way) {
+  vec3 at = mat3(u_view) * (ray.at + way * ray.direction - u_eye);
+  ivec2 pixel = ivec2(clamp(pixel_of(at), vec2(0.0), u_size.xy - 1.0));
+  float front = texelFetch(u_depth, pixel, 0).r;
+  float behind = -at.z - depth_of(front);
+  float before = depth_of(texelFetch(u_back, pixel, 0).r) + at.z;
+  float length = behind + before;
+  float filled = filling(texelFetch(u_thickness, pixel, 0).r, length, length);
+  float inside = min(min(behind, before) / u_radius + 1.0, 2.0 * filled - 1.0);
+  bool is_fluid = is_surface(front) && at.z < 0.0;
+  return is_fluid ? clamp(inside, -1.0, 1.0) : -1.0;
+}
+
+// How far a ray goes through the fluid before it leaves it, as far as the picture knows: steps
+// that grow until one leads out, whose ends are brought together.
+float way_inside(Ray ray, float most) {
+  float from = 0.0, to = 0.0;
+  float at_from = 1.0, at_to = 1.0;
+  for (int k = 1; k <= EXIT_STEPS && at_to > 0.0; ++k) {
     from = to;
+    at_from = at_to;
+    to = most * float(k * k) / float(EXIT_STEPS * EXIT_STEPS);
+    at_to = inside_fluid(ray, to);
   }
-  return share;
+  if (at_to > 0.0) return most;
+  for (int k = 0; k < 4; ++k) {
+    float middle = 0.5 * (from + to);
+    float at_middle = inside_fluid(ray, middle);
+    bool is_in = at_middle > 0.0;
+    from = is_in ? middle : from;
+    at_from = is_in ? at_middle : at_from;
+    to = is_in ? to : middle;
+    at_to = is_in ? at_to : at_middle;
+  }
+  return mix(from, to, at_from / (at_from - at_to));
 }
 
 // On through the fluid to the floor, or out through a wall of the tank; a wall that it meets too
-// flat mirrors it.
+// flat mirrors it. What the bottom mirrors is too flat for a level surface as well, and goes back
+// and forth between both as far as the next wall.
 void follow_to_wall_or_floor(inout Ray ray) {
-  bool inside = true;
+  bool inside = true, off_bottom = false;
   for (int k = 0; k < 2; ++k) {
     vec3 outward;
     float to_floor = distance_to_ground(ray.at, ray.direction);
     float to_wall = distance_to_wall(ray.at, ray.direction, outward);
     float to_end = min(to_floor, to_wall);
     float way = inside && is_met(to_end) ? to_end : 0.0;
-    ray.way += k == 0 || !inside ? way : way * share_in_fluid(ray, way);
+    float to_surface = k == 0 || !inside ? way : way_inside(ray, way);
+    ray.way += off_bottom ? way : to_surface;
     ray.at += way * ray.direction;
+    float passes = floor(way / max(to_surface, LEAST_WAY * u_radius));
+    bool comes_down = off_bottom && mod(passes, 2.0) > 0.5;
+    ray.direction -= comes_down ? 2.0 * dot(ray.direction, u_up) * u_up : vec3(0.0);
     vec3 bent = refract(ray.direction, -outward, u_refractive_index);
     bool mirrors = dot(bent, bent) < 0.5;
     inside = inside && to_wall < to_floor;
     if (inside) ray.direction = mirrors ? reflect(ray.direction, outward) : bent;
     inside = inside && mirrors;
+    off_bottom = inside && dot(outward, u_up) < -0.5;
   }
 }
 
@@ -348,22 +382,30 @@ float coverage(ivec2 pixel) {
 float cut_at_walls(inout vec3 p, vec3 view, float back, float body, inout vec3 n) {
   vec3 point = u_eye + to_world(p);
   vec3 direction = to_world(view);
-  vec3 is_open = step(0.9, abs(u_up));
-  vec3 outside = (1.0 - is_open) * max(u_tank_lower - point, point - u_tank_upper);
+  vec3 is_up = step(0.9, abs(u_up));
+  bool goes_down = dot(direction, u_up) < 0.0;
+  vec3 opens_near = goes_down || !bottom_is_wall() ? is_up : vec3(0.0);
+  vec3 opens_far = goes_down && bottom_is_wall() ? vec3(0.0) : is_up;
+  vec3 outside = (1.0 - is_up) * max(u_tank_lower - point, point - u_tank_upper);
   bool is_outside = max(outside.x, max(outside.y, outside.z)) > u_radius;
   if (u_has_tank == 0 || body < 1.0 || is_outside) return 1.0;
   vec3 ahead = step(0.0, direction);
   vec3 speed = mix(vec3(-1.0), vec3(1.0), ahead) * max(abs(direction), 1e-5);
-  vec3 to_near = (mix(u_tank_upper, u_tank_lower, ahead) - point) / speed - NOWHERE * is_open;
-  vec3 to_far = (mix(u_tank_lower, u_tank_upper, ahead) - point) / speed + NOWHERE * is_open;
+  vec3 to_near = (mix(u_tank_upper, u_tank_lower, ahead) - point) / speed - NOWHERE * opens_near;
+  vec3 to_far = (mix(u_tank_lower, u_tank_upper, ahead) - point) / speed + NOWHERE * opens_far;
   float enters = max(to_near.x, max(to_near.y, to_near.z));
   float leaves = min(to_far.x, min(to_far.y, to_far.z));
-  // It stands at the far wall as at the floor: up to the glass, without curling away from it.
-  vec3 beside = (1.0 - smoothstep(1.0, 3.0, to_far * abs(speed) / u_radius)) * sign(speed);
-  vec3 flat_n = to_world(n);
-  flat_n -= beside * max(flat_n * beside, 0.0) + 1e-6 * direction;
-  n = normalize(mat3(u_view) * flat_n);
-  if (enters > 0.0) {
+  // It stands at a wall as at the floor: up to the glass, without curling away from it. A surface
+  // that faces the viewer through a near wall keeps its normal.
+  vec3 world_n = to_world(n);
+  float lies = smoothstep(0.4, 0.8, abs(dot(world_n, u_up)));
+  vec3 far = (1.0 - smoothstep(2.0, 5.0, to_far * abs(speed) / u_radius)) * sign(speed);
+  vec3 near = (1.0 - smoothstep(2.0, 5.0, -to_near * abs(speed) / u_radius)) * -sign(speed);
+  vec3 flat_n = world_n - far * max(world_n * far, 0.0) - lies * near * max(world_n * near, 0.0);
+  n = normalize(mat3(u_view) * (flat_n - 1e-6 * direction));
+  // Filters round off the edge between two walls; one behind the viewer is not seen through.
+  float inside = -enters * dot(abs(speed), vec3(greaterThanEqual(to_near, vec3(enters))));
+  if (inside < (1.0 - lies) * u_radius && p.z + enters * view.z < 0.0) {
     p += enters * view;
     n = mat3(u_view) * (-sign(speed) * vec3(greaterThanEqual(to_near, vec3(enters))));
     leaves = min(leaves, back) - enters;

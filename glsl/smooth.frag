@@ -7,7 +7,8 @@
 //
 // Weights: exp(-k^2 / (2 s^2)) in space, k the distance and s = radius / 2 in pixels, fading out
 // over the last pixel so that nothing pops when the radius changes. Which neighbors count:
-//   GAUSSIAN      all
+//   GAUSSIAN      all; of far sides those behind the pixel's front: what ends before it is another
+//                 body's
 //   BILATERAL     times (1 - u^2)^2, u the difference of values over the range: 0 from the range
 //                 on, so that a higher step is kept untouched
 //   NARROW_RANGE  those within a window of values that begins as the range and grows with what it
@@ -25,6 +26,7 @@ uniform sampler2D u_values;
 uniform sampler2D u_spheres;
 uniform ivec2 u_axis;     // (1, 0) or (0, 1)
 uniform int u_thickness;  // 1: the layer is thickness
+uniform int u_far_side;   // 1: the layer is the far side's affine depth
 uniform float u_radius;   // where the kernel ends [m]; of depth: in a body of fluid
 uniform float u_range;    // [m]
 uniform float u_behind;   // [m]
@@ -46,7 +48,8 @@ float gap_radius(float radius) {
   return stride > 1.0 ? 1.5 * stride : 0.0;
 }
 
-float smoothed(ivec2 pixel, float value, float radius, Window window) {
+// @param limit  what is more does not count
+float smoothed(ivec2 pixel, float value, float radius, Window window, float limit) {
   ivec2 size = textureSize(u_values, 0);
   int at = pixel.x * u_axis.x + pixel.y * u_axis.y;
   int last = size.x * u_axis.x + size.y * u_axis.y - 1;
@@ -70,8 +73,8 @@ float smoothed(ivec2 pixel, float value, float radius, Window window) {
     float fade = clamp(reach + 1.0 - x, 0.0, 1.0);
     vec2 neighbors = vec2(texelFetch(u_values, pixel + u_axis * min(offset, last - at), 0).r,
                           texelFetch(u_values, pixel - u_axis * min(offset, at), 0).r);
-    bvec2 exist = bvec2(offset <= last - at && neighbors.x > empty && neighbors.x < -LEAST_SURFACE,
-                        offset <= at && neighbors.y > empty && neighbors.y < -LEAST_SURFACE);
+    bvec2 exist = bvec2(offset <= last - at && neighbors.x > empty && neighbors.x < limit,
+                        offset <= at && neighbors.y > empty && neighbors.y < limit);
 #if defined(NARROW_RANGE)
     exist = open = bvec2(open.x && exist.x, open.y && exist.y);
 #endif
@@ -118,6 +121,7 @@ void main() {
   radius = min(radius, MOST_PIXELS);
   if (u_close_gaps == 1) radius = gap_radius(radius);
   if (radius <= 0.0) return;
-  float result = smoothed(pixel, value, radius, window);
+  float limit = u_far_side == 1 ? sphere : -LEAST_SURFACE;
+  float result = smoothed(pixel, value, radius, window, limit);
   o_value = u_thickness == 1 ? max(result, 0.0) : result;
 }

@@ -127,6 +127,24 @@ TEST_CASE("smooth: a step higher than the range is kept by bilateral and spread 
   }
 }
 
+TEST_CASE("smooth: of far sides, what ends before a pixel's front is another body's") {
+  const GlFixture gl;
+  LayerFilter filter = depth_of(Smoothing::gaussian);
+  filter.layer = Layer::far_side;
+  // On the left a drop well before the body on the right.
+  const auto far_side = [](int x, int) { return 1 / (x < 30 ? 0.5 * kHere : kHere); };
+  const auto front = [](int x, int) {
+    return with_level(1 / (x < 30 ? 0.4 * kHere : 0.9 * kHere), 0);
+  };
+  for (const Way way : kWays) {
+    const std::vector<float> result = smooth(way, gl, filter, far_side, front);
+    for (int x = 30; x < gl.width(); ++x) CHECK(result[gl.at(x, 20)] == 0.5F);
+    // What is behind goes over into the drop's.
+    CHECK(result[gl.at(29, 20)] > 0.6F);
+    CHECK(result[gl.at(29, 20)] < 0.9F);
+  }
+}
+
 TEST_CASE("smooth: the answer to an impulse is the kernel, whose width is a length in the scene") {
   const GlFixture gl(64, 48, parallel(4.8F));  // a pixel is 0.1 m
   const double radius = 5.5;                   // pixels; the standard deviation is half of it

@@ -15,6 +15,7 @@ LayerFilter depth_filter(const RenderParams& params) {
 
 LayerFilter back_filter(const RenderParams& params) {
   LayerFilter filter = depth_filter(params);
+  filter.layer = LayerFilter::Layer::far_side;
   filter.kind = Smoothing::gaussian;
   return filter;
 }

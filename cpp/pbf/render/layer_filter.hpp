@@ -8,7 +8,7 @@ namespace pbf {
 /// How a layer is smoothed: RenderParams, read for one of the two layers. For the passes in GLSL
 /// and for those in C++.
 struct LayerFilter {
-  enum class Layer { depth, thickness };
+  enum class Layer { depth, far_side, thickness };
   Layer layer;
   Smoothing kind;
   Real radius;  ///< where the kernel ends [m]
@@ -19,7 +19,8 @@ struct LayerFilter {
 
 LayerFilter depth_filter(const RenderParams& params);
 LayerFilter thickness_filter(const RenderParams& params);
-/// Of the far side's affine depth: run once.
+/// Of the far side's affine depth: run once. What ends before a pixel's front begins is another
+/// body's, and does not count there.
 LayerFilter back_filter(const RenderParams& params);
 
 /// More neighbors to a side than this are thinned out evenly.

@@ -33,6 +33,7 @@ void Smooth::operator()(const LayerFilter& filter,
   program.set("u_values", 0);
   program.set("u_spheres", 1);
   program.set("u_thickness", thickness ? 1 : 0);
+  program.set("u_far_side", filter.layer == LayerFilter::Layer::far_side ? 1 : 0);
   program.set("u_radius", filter.radius);
   program.set("u_range", filter.range);
   program.set("u_behind", filter.behind);

@@ -29,52 +29,82 @@ PBF_INLINE Lanes filling(const FluidTerms& terms, Lanes thickness, Lanes length,
   return thickness / max(min(length - sticking_out, end), kLeastWay * terms.radius);
 }
 
-/// Share of a ray's way that goes through fluid before it leaves it, as far as the picture knows.
-PBF_INLINE Lanes share_in_fluid(const Scene& scene,
-                                const FluidTerms& terms,
-                                const Ray& ray,
-                                Lanes way) {
+PBF_INLINE Lanes inside_fluid(const Scene& scene,
+                              const FluidTerms& terms,
+                              const Ray& ray,
+                              Lanes way) {
   const FrameTerms& frame = scene.frame;
-  Lanes share = 0.0F, inside = 1.0F;
-  float from = 0;
-  for (int k = 1; k <= 3; ++k) {
-    const float to = static_cast<float>(k * k) / 9;
-    const Vec3Lanes at = to_eye(frame, ray.at + (Lanes(0.5F * (from + to)) * way) * ray.direction -
-                                           lanes(scene.environment.eye));
-    const PixelLanes pixel = pixel_of(frame, at);
-    const Ints x = to_ints(clamp(pixel.x, 0.0F, frame.width - 1));
-    const Ints y = to_ints(clamp(pixel.y, 0.0F, frame.height - 1));
-    const Lanes front = fetch(terms.depth, x, y);
-    const Lanes behind = -at.z - depth_of(frame, front);
-    const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
-    const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
-    const Lanes within = Lanes(0.5F) + min(behind, before) * Lanes(1 / terms.radius);
-    const Lanes length = behind + before;
-    const Lanes filled = filling(terms, fetch(terms.thickness, x, y), length, length);
-    inside *= select(is_fluid, clamp(within, 0.0F, 1.0F) * min(filled, 1.0F), 0.0F);
-    share += inside * Lanes(to - from);
-    from = to;
+  const Vec3Lanes at = to_eye(frame, ray.at + way * ray.direction - lanes(scene.environment.eye));
+  const PixelLanes pixel = pixel_of(frame, at);
+  const Ints x = to_ints(clamp(pixel.x, 0.0F, frame.width - 1));
+  const Ints y = to_ints(clamp(pixel.y, 0.0F, frame.height - 1));
+  const Lanes front = fetch(terms.depth, x, y);
+  const Lanes behind = -at.z - depth_of(frame, front);
+  const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
+  const Lanes length = behind + before;
+  const Lanes filled = filling(terms, fetch(terms.thickness, x, y), length, length);
+  const Lanes inside = min(min(behind, before) * Lanes(1 / terms.radius) + Lanes(1),
+                           Lanes(2) * filled - Lanes(1));
+  const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
+  return select(is_fluid, clamp(inside, -1.0F, 1.0F), -1.0F);
+}
+
+/// @param most  0 where nobody asks
+PBF_INLINE Lanes way_inside(const Scene& scene,
+                            const FluidTerms& terms,
+                            const Ray& ray,
+                            Lanes most) {
+  constexpr int kSteps = 6;
+  const Lanes zero = 0.0F;
+  Lanes from = zero, to = zero, at_from = 1.0F, at_to = 1.0F;
+  Mask on = most > zero;
+  for (int k = 1; k <= kSteps && any(on); ++k) {
+    from = select(on, to, from);
+    at_from = select(on, at_to, at_from);
+    to = select(on, most * Lanes(static_cast<float>(k * k) / (kSteps * kSteps)), to);
+    at_to = select(on, inside_fluid(scene, terms, ray, to), at_to);
+    on = on & (at_to > zero);
   }
-  return share;
+  const Mask leaves = ~(at_to > zero);
+  if (!any(leaves)) return most;
+  for (int k = 0; k < 4; ++k) {
+    const Lanes middle = Lanes(0.5F) * (from + to);
+    const Lanes at_middle = inside_fluid(scene, terms, ray, middle);
+    const Mask is_in = at_middle > zero;
+    from = select(is_in, middle, from);
+    at_from = select(is_in, at_middle, at_from);
+    to = select(is_in, to, middle);
+    at_to = select(is_in, at_to, at_middle);
+  }
+  return select(leaves, mix(from, to, at_from / max(at_from - at_to, 1e-20F)), most);
 }
 
 PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& terms, Ray& ray) {
   const Environment& e = scene.environment;
+  const Vec3Lanes up = lanes(e.up);
   const float index = terms.refractive_index;
-  Mask inside = Lanes(0.0F) <= Lanes(0.0F);
+  const Lanes zero = 0.0F;
+  Mask inside = zero <= zero, off_bottom = zero < zero;
   for (int k = 0; k < 2 && any(inside); ++k) {
-    const Lanes to_floor = distance_to_ground(e, ray.at, ray.direction);
-    const Wall wall = nearest_wall(e, ray.at, ray.direction);
+    const Lanes to_floor = distance_to_ground(e, terms, ray.at, ray.direction);
+    const Wall wall = nearest_wall(e, terms, ray.at, ray.direction);
     const Lanes to_end = min(to_floor, wall.way);
-    const Lanes way = select(inside & is_met(to_end), to_end, 0.0F);
-    ray.way += k == 0 ? way : way * share_in_fluid(scene, terms, ray, way);
+    const Lanes way = select(inside & is_met(to_end), to_end, zero);
+    const Lanes to_surface = k == 0 ? way : way_inside(scene, terms, ray, way);
+    ray.way += select(off_bottom, way, to_surface);
     ray.at += way * ray.direction;
+    if (any(off_bottom)) {
+      const Lanes half = Lanes(0.5F) * floor(way / max(to_surface, kLeastWay * terms.radius));
+      const Mask comes_down = off_bottom & (half - floor(half) > Lanes(0.25F));
+      ray.direction += select(comes_down, Lanes(-2) * dot(ray.direction, up), zero) * up;
+    }
     const Vec3Lanes bent = refract(ray.direction, -wall.outward, index);
     const Mask mirrors = dot(bent, bent) < Lanes(0.5F);
     inside = inside & (wall.way < to_floor);
     const Vec3Lanes on = select(mirrors, reflect(ray.direction, wall.outward), bent);
     ray.direction = select(inside, on, ray.direction);
     inside = inside & mirrors;
+    off_bottom = inside & (dot(wall.outward, up) < Lanes(-0.5F));
   }
 }
 
@@ -142,7 +172,7 @@ PBF_INLINE Refracted refracted(const Scene& scene,
   const Vec3Lanes once = to_world(frame, into);
   const Vec3Lanes position = lanes(e.eye) + to_world(frame, p);
   const Lanes to_end =
-      min(distance_to_ground(e, position, once), nearest_wall(e, position, once).way);
+      min(distance_to_ground(e, terms, position, once), nearest_wall(e, terms, position, once).way);
   const Lanes deep = p.z - back_at(scene, terms, x, y, -p.z).z;
   const Lanes straight = max(deep, 0.0F) / -view.z;
   Lanes way = straight;

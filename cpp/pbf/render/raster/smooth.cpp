@@ -16,7 +16,9 @@ enum class Axis { x, y };
 constexpr Index kTilesAtOnce = 4;
 
 SmoothTerms terms_of(const LayerFilter& filter, const FrameBlock& frame) {
-  const auto kind = filter.kind == Smoothing::gaussian       ? SmoothTerms::Kind::gaussian
+  const bool far_side = filter.layer == LayerFilter::Layer::far_side;
+  const auto kind = far_side                                 ? SmoothTerms::Kind::far_side
+                    : filter.kind == Smoothing::gaussian     ? SmoothTerms::Kind::gaussian
                     : filter.kind == Smoothing::narrow_range ? SmoothTerms::Kind::narrow_range
                                                              : SmoothTerms::Kind::bilateral;
   return {.kind = kind,
@@ -47,7 +49,8 @@ void smooth_along(Axis axis,
       const int reach = static_cast<int>(most * (1 + 1.0F / kMostTaps)) + 3;
       const Surroundings around = surroundings(values, tile, axis == Axis::x ? reach : 0,
                                                axis == Axis::y ? reach : 0, memory);
-      kernels.smooth(terms, around, radius.data(), out.row(tile.y) + tile.x, out.pitch());
+      kernels.smooth(terms, around, radius.data(), spheres.row(tile.y) + tile.x,
+                     out.row(tile.y) + tile.x, out.pitch());
     }
   };
   parallel_chunks(static_cast<Index>(tiles.size()), threads, kTilesAtOnce, smooth_tiles);

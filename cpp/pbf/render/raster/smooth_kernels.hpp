@@ -7,7 +7,7 @@ namespace pbf::raster {
 
 /// One axis of a filter over a layer, as numbers (glsl/smooth.frag).
 struct SmoothTerms {
-  enum class Kind { bilateral, gaussian, narrow_range };
+  enum class Kind { bilateral, gaussian, far_side, narrow_range };
   Kind kind;
   bool thickness;  ///< the layer is thickness
   bool perspective;
@@ -24,11 +24,13 @@ struct SmoothKernels {
   /// largest.
   float (*radii)(
       const SmoothTerms& terms, const Map& values, const Map& spheres, Tile tile, float* radius);
-  /// Writes the tile's smoothed values to rows that are `pitch` numbers apart. The axis is the one
-  /// along which there are surroundings.
+  /// Writes the tile's smoothed values to rows as far apart as those of the spheres. The axis is
+  /// the one along which there are surroundings.
+  /// @param spheres  the tile's first
   void (*smooth)(const SmoothTerms& terms,
                  const Surroundings& around,
                  const float* radius,
+                 const float* spheres,
                  float* out,
                  std::ptrdiff_t pitch);
 };

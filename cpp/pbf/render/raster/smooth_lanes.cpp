@@ -68,12 +68,14 @@ PBF_INLINE Window window_at(const SmoothTerms& terms, Lanes a) {
 }
 
 /// The value of the fitted line, for pixels whose kernels have the same stride.
+/// @param front  affine depth of the spheres
 template <Kind kKind>
 PBF_INLINE Lanes smoothed(const SmoothTerms& terms,
                           const Surroundings& around,
                           const float* at,
                           Lanes value,
                           Lanes radius,
+                          Lanes front,
                           int stride) {
   const Lanes zero(0), one(1);
   const Lanes empty(terms.thickness ? 0.0F : kLeastSurface);
@@ -98,7 +100,10 @@ PBF_INLINE Lanes smoothed(const SmoothTerms& terms,
     const Lanes weight = space * min(max(reach + one - x, zero), one);
     const Lanes next = load_lanes(at + offset), previous = load_lanes(at - offset);
     Mask exist1 = next > empty, exist2 = previous > empty;
-    if constexpr (kKind == Kind::narrow_range) {
+    if constexpr (kKind == Kind::far_side) {
+      exist1 = exist1 & (next < front);
+      exist2 = exist2 & (previous < front);
+    } else if constexpr (kKind == Kind::narrow_range) {
       open1 = select(exist1, open1, zero);
       open2 = select(exist2, open2, zero);
       exist1 = open1 > zero;
@@ -143,6 +148,7 @@ template <Kind kKind>
 void smooth(const SmoothTerms& terms,
             const Surroundings& around,
             const float* radius,
+            const float* spheres,
             float* out,
             std::ptrdiff_t pitch) {
   for (int y = 0; y < kTileSide; ++y) {
@@ -150,6 +156,7 @@ void smooth(const SmoothTerms& terms,
       const float* at = around.first + y * around.pitch + x;
       const Lanes value = load_lanes(at);
       const Lanes r = load_lanes(radius);
+      const Lanes front = load_lanes(spheres + y * pitch + x);
       const Lanes stride = stride_of(terms, r);
       Lanes result = value;
       const int largest = static_cast<int>(highest(stride));
@@ -157,7 +164,7 @@ void smooth(const SmoothTerms& terms,
         const Mask mine = stride == Lanes(static_cast<float>(s));
         const Lanes own = select(mine, r, Lanes(0));
         if (!(highest(own) > 0)) continue;
-        const Lanes fitted = smoothed<kKind>(terms, around, at, value, own, s);
+        const Lanes fitted = smoothed<kKind>(terms, around, at, value, own, front, s);
         result = select(own > Lanes(0), fitted, result);
       }
       if (terms.thickness) result = max(result, Lanes(0));
@@ -169,15 +176,18 @@ void smooth(const SmoothTerms& terms,
 void smooth_any(const SmoothTerms& terms,
                 const Surroundings& around,
                 const float* radius,
+                const float* spheres,
                 float* out,
                 std::ptrdiff_t pitch) {
   switch (terms.kind) {
     case Kind::bilateral:
-      return smooth<Kind::bilateral>(terms, around, radius, out, pitch);
+      return smooth<Kind::bilateral>(terms, around, radius, spheres, out, pitch);
     case Kind::gaussian:
-      return smooth<Kind::gaussian>(terms, around, radius, out, pitch);
+      return smooth<Kind::gaussian>(terms, around, radius, spheres, out, pitch);
+    case Kind::far_side:
+      return smooth<Kind::far_side>(terms, around, radius, spheres, out, pitch);
     case Kind::narrow_range:
-      return smooth<Kind::narrow_range>(terms, around, radius, out, pitch);
+      return smooth<Kind::narrow_range>(terms, around, radius, spheres, out, pitch);
   }
 }
 
