@@ -181,16 +181,15 @@ SunShadow sun_shadow(const PointsView& positions,
   t = blurred(blurred(t, map, 1), map, map.width);
   Grid cover = covered(meshes, map);
   if (!meshes.empty()) cover = blurred(blurred(cover, map, 1), map, map.width);
-  map.transmittance.resize(4 * t.size());
+  map.transmittance.assign(4 * t.size(), 255);
   parallel_for(static_cast<Index>(t.size()), kThreads, [&](Index k) {
-    const auto texel_data = map.transmittance.data() + 4 * k;
+    const Real length = t[static_cast<std::size_t>(k)];
+    const Real open = 1 - cover[static_cast<std::size_t>(k)];
+    if (length == 0 && open == 1) return;
     for (int c = 0; c < 3; ++c) {
-      const Real left = std::exp(-params.absorption[c] * t[static_cast<std::size_t>(k)]) *
-                        (1 - cover[static_cast<std::size_t>(k)]);
-      const Real rounded = 255 * left + 0.5F;
-      texel_data[c] = static_cast<std::uint8_t>(rounded);
+      const Real rounded = 255 * std::exp(-params.absorption[c] * length) * open + 0.5F;
+      map.transmittance[static_cast<std::size_t>(4 * k + c)] = static_cast<std::uint8_t>(rounded);
     }
-    texel_data[3] = 255;
   });
   return map;
 }

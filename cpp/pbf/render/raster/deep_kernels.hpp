@@ -13,7 +13,7 @@ struct DeepKernels {
   /// Cells around the picture that are complete, and those that belong to no pixel.
   static constexpr int kMargin = 2;
 
-  /// What the particles that are flagged add to the levels; the others add nothing.
+  /// What the particles whose flag is 1 add to the levels; those with 0 add nothing.
   /// @param xyz  three numbers each, behind the last kMostLanes more particles' that can be read
   void (*share)(const float* xyz,
                 const std::uint8_t* flags,

@@ -7,6 +7,9 @@ namespace {
 
 using namespace raster;
 
+/// 0 or 1 each.
+using Flags = std::uint8_t __attribute__((vector_size(kLanes)));
+
 /// The next whole number of the logarithm to base 2, of a number > 0.
 PBF_INLINE Ints ceil_log2(Lanes a) {
   return ((reinterpret_cast<Ints>(a.v) + 0x7FFFFF) >> 23) - 127;
@@ -29,8 +32,7 @@ void share(const float* xyz,
            Shares& shares) {
   const float* m = view.view;
   for (Index i = 0; i < count; i += kLanes) {
-    Ints is_deep;
-    for (int lane = 0; lane < kLanes; ++lane) is_deep[lane] = flags[i + lane] != 0 ? -1 : 0;
+    const Ints is_deep = -__builtin_convertvector(load<Flags>(flags + i), Ints);
     if (!any({is_deep})) {
       store(shares.amount + i, 0.0F);
       continue;
