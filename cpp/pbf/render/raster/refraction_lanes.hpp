@@ -43,8 +43,8 @@ PBF_INLINE Lanes inside_fluid(const Scene& scene,
   const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
   const Lanes length = behind + before;
   const Lanes filled = filling(terms, fetch(terms.thickness, x, y), length, length);
-  const Lanes inside = min(min(behind, before) * Lanes(1 / terms.radius) + Lanes(1),
-                           Lanes(2) * filled - Lanes(1));
+  const Lanes inside =
+      min(min(behind, before) * Lanes(1 / terms.radius) + Lanes(1), Lanes(2) * filled - Lanes(1));
   const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
   return select(is_fluid, clamp(inside, -1.0F, 1.0F), -1.0F);
 }
