@@ -15,7 +15,7 @@ using Place = FullCells::Place;
 
 /// Particles that are sorted out at a time.
 constexpr Index kBlock = 1 << 12;
-/// [m]
+/// Farther than anything [m].
 constexpr Real kAll = std::numeric_limits<Real>::max();
 
 /// How many of the particles before a block are to be sorted, and how many are deep.

@@ -15,12 +15,12 @@ namespace pbf {
 /// 1.2 s of a particle that can be seen.
 class Neighborhoods {
  public:
+  enum class Deep { last, left_out };
   /// @param positions  finite [m]
   /// @param camera     particles that are more than 2^19 s from it are not sorted: nobody sees them
   /// @param s          0: nobody is sorted, and nobody deep
   /// @param radius     of a body's sprites [m]: only large ones hide what is behind them
-  /// @param deep       whether they are wanted among the particles()
-  enum class Deep { last, left_out };
+  /// @param deep       where deep ones are among the particles()
   void find(const PointsView& positions,
             const Camera& camera,
             Real s,

@@ -30,18 +30,13 @@ void share(const float* xyz,
            Index count,
            const SplatView& view,
            Shares& shares) {
-  const float* m = view.view;
   for (Index i = 0; i < count; i += kLanes) {
     const Ints is_deep = -__builtin_convertvector(load<Flags>(flags + i), Ints);
     if (!any({is_deep})) {
       store(shares.amount + i, 0.0F);
       continue;
     }
-    const Vec3Lanes p = load_points(xyz + 3 * i);
-    const auto row = [&](int k) PBF_LAMBDA_INLINE {
-      return m[k] * p.x + m[4 + k] * p.y + m[8 + k] * p.z + m[12 + k];
-    };
-    const Vec3Lanes center{row(0), row(1), row(2)};
+    const Vec3Lanes center = eye_space(view, load_points(xyz + 3 * i));
     const Lanes depth = -center.z;
     const Lanes pixels_per_meter =
         view.perspective ? view.pixels_per_meter / depth : Lanes(view.pixels_per_meter);

@@ -82,6 +82,15 @@ PBF_INLINE Vec3Lanes to_world(const FrameTerms& frame, const Vec3Lanes& v) {
   };
   return {along(0), along(4), along(8)};
 }
+/// A point of the world in eye space.
+PBF_INLINE Vec3Lanes eye_space(const FrameTerms& frame, const Vec3Lanes& p) {
+  const float* m = frame.view;
+  const auto row = [&](int k) PBF_LAMBDA_INLINE {
+    return m[k] * p.x + m[4 + k] * p.y + m[8 + k] * p.z + m[12 + k];
+  };
+  return {row(0), row(1), row(2)};
+}
+/// A direction of the world in eye space.
 PBF_INLINE Vec3Lanes to_eye(const FrameTerms& frame, const Vec3Lanes& v) {
   const float* m = frame.view;
   const auto along = [&](int k) PBF_LAMBDA_INLINE {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pbf/render/raster/ellipsoid_lanes.hpp"
-#include "pbf/render/raster/glsl_lanes.hpp"
+#include "pbf/render/raster/frame_lanes.hpp"
 
 // glsl/sphere_outline.glsl: what is seen of spheres and ellipsoids.
 namespace pbf::PBF_ISA_NAMESPACE {

@@ -17,10 +17,7 @@ void project(const Record* particles,
   const float* m = view.view;
   for (Index i = first; i < last; i += kLanes) {
     const RecordLanes p = load_records(particles + i);
-    const auto row = [&](int k) PBF_LAMBDA_INLINE {
-      return m[k] * p.xyz.x + m[4 + k] * p.xyz.y + m[8 + k] * p.xyz.z + m[12 + k];
-    };
-    const Vec3Lanes center{row(0), row(1), row(2)};
+    const Vec3Lanes center = eye_space(view, p.xyz);
     store_records(centers + i, center, p.w);
     Outline at;
     if (stretches == nullptr) {
