@@ -90,7 +90,7 @@ TEST_CASE("deep_thickness: along slanted rays of a wide lens it is the length of
   }
 }
 
-TEST_CASE("deep_thickness: the same bits with every instruction set; nothing without deep ones") {
+TEST_CASE("deep_thickness: the same bits with every instruction set, none without deep ones") {
   Camera camera;
   camera.eye = {2, 1.5F, 2};
   camera.target = {0.5F, 0.5F, 0.5F};
