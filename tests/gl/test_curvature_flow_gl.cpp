@@ -1,8 +1,8 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/passes/curvature_flow.hpp"
 #include "pbf/render/raster/curvature_flow.hpp"
 
 #include "filter_fixture.hpp"
+#include "instruction_sets.hpp"
 
 using namespace pbf;
 using namespace pbf::test;
@@ -227,12 +227,7 @@ TEST_CASE("curvature_flow: C++ and GLSL give the same numbers, C++ the same bits
     }
     CHECK(worst < 3e-5);
     CHECK(flow_in_cpp(gl, filter, schedule, sphere, sphere, 3) == cpp);
-    for (const Isa isa : usable_isas()) {
-      REQUIRE(setenv("PBF_ISA", isa_name(isa), 1) == 0);
-      const auto other = flow_in_cpp(gl, filter, schedule, sphere, sphere, 2);
-      unsetenv("PBF_ISA");
-      CHECK(other == cpp);
-    }
+    for_each_isa([&] { CHECK(flow_in_cpp(gl, filter, schedule, sphere, sphere, 2) == cpp); });
   }
 }
 

@@ -1,8 +1,8 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/passes/smooth.hpp"
 #include "pbf/render/raster/smooth.hpp"
 
 #include "filter_fixture.hpp"
+#include "instruction_sets.hpp"
 
 using namespace pbf;
 using namespace pbf::test;
@@ -354,12 +354,6 @@ TEST_CASE("smooth: C++ has the same bits for any number of threads and any instr
     for (const int threads : {2, 3, 7}) {
       CHECK(smooth_in_cpp(gl, filter, sphere, sphere, threads) == once);
     }
-    for (const Isa isa : usable_isas()) {
-      CAPTURE(isa_name(isa));
-      REQUIRE(setenv("PBF_ISA", isa_name(isa), 1) == 0);
-      const auto other = smooth_in_cpp(gl, filter, sphere, sphere, 1);
-      unsetenv("PBF_ISA");
-      CHECK(other == once);
-    }
+    for_each_isa([&] { CHECK(smooth_in_cpp(gl, filter, sphere, sphere, 1) == once); });
   }
 }

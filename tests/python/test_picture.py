@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.optics import fresnel
 
 import pbfluids as pbf
 from pbfluids import errors
@@ -179,12 +180,6 @@ def test_through_a_drop_the_mirror_of_the_pool_behind_it_is_seen(renderer):
         **WATER, background="plain", absorption=(20, 20, 20), scatter=(0, 0, 0), floor=False
     )
     image = linear(renderer.render([*pool, (0, 0.15, 0)], camera, params))[..., 0]
-
-    def fresnel(c):
-        t = np.sqrt(1 - (1 - c * c) / 1.333**2)
-        return (
-            ((c - 1.333 * t) / (c + 1.333 * t)) ** 2 + ((1.333 * c - t) / (1.333 * c + t)) ** 2
-        ) / 2
 
     drop, behind = fresnel(1), fresnel(0.25 / np.hypot(0.25, 1))
     assert image[60, 40] == pytest.approx(behind, abs=0.03)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.optics import fresnel
 
 import pbfluids as pbf
 
@@ -28,13 +29,6 @@ PLAIN = pbf.RenderParams(
 def renderer(request):
     with pbf.Renderer(240, 240, backend=request.param) as made:
         yield made
-
-
-def fresnel(cosine):
-    inside = np.sqrt(1 - (1 - cosine**2) / INDEX**2)
-    s = (cosine - INDEX * inside) / (cosine + INDEX * inside)
-    p = (INDEX * cosine - inside) / (INDEX * cosine + inside)
-    return (s * s + p * p) / 2
 
 
 def from_above(degrees, turned, target):

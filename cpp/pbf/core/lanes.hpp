@@ -35,6 +35,19 @@ struct Mask {
   Vector v;  // all bits of a lane are set where it holds
 };
 
+using Ints = Mask::Vector;
+
+/// 0, 1, 2 …
+PBF_INLINE Ints lane_numbers() {
+  Ints result;
+  for (int lane = 0; lane < kLanes; ++lane) result[lane] = lane;
+  return result;
+}
+/// So many lanes, or all: those of a vector that holds the last of something.
+PBF_INLINE Mask first_lanes(Index count) {
+  return {lane_numbers() < (static_cast<std::int32_t>(count) - Ints{})};
+}
+
 /// A number for each of kLanes particles, in the compiler's own vector type (GCC and Clang: "Vector
 /// Extensions"). Arithmetic rounds like that of float, so results do not depend on kLanes.
 struct Lanes {

@@ -27,8 +27,7 @@ void require_finite(const PointsView& positions) {
   constexpr Index kBlock = 1 << 12;
   std::atomic<bool> sound{true};
   parallel_chunks(positions.cols(), 0, kBlock, [&](Index first, Index last) {
-    thread_local std::vector<Real> room;
-    const Real* block = point_block(positions, first, last, room);
+    const Real* block = point_block(positions, first, last);
     if (!all_finite(block, 3 * (last - first))) sound = false;
   });
   if (sound) return;

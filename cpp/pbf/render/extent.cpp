@@ -65,9 +65,8 @@ Extent extent(const PointsView& positions, const Eigen::Matrix<Real, 3, 3>& axes
   std::vector<Part> parts(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   const auto measured = [&] {
     parallel_chunks(n, threads, kBlock, [&](Index begin, Index end) {
-      thread_local std::vector<Real> room;
       ExtentPart along[3];
-      kernels.measure(point_block(positions, begin, end, room), end - begin, to, along);
+      kernels.measure(point_block(positions, begin, end), end - begin, to, along);
       parts[static_cast<std::size_t>(begin / kBlock)] = part_of(along);
     });
     Part all;

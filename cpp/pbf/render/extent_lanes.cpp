@@ -9,13 +9,6 @@ constexpr int kVectors = static_cast<int>(kMostLanes) / kLanes;
 /// More than any coordinate that counts.
 constexpr float kLargest = 3e38F;
 
-/// The first `count` lanes.
-PBF_INLINE Mask first_lanes(Index count) {
-  Mask::Vector numbers;
-  for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = lane;
-  return {numbers < (static_cast<std::int32_t>(count) - Mask::Vector{})};
-}
-
 void measure(const Real* xyz, Index count, const ExtentAxes& to, ExtentPart (&parts)[3]) {
   Lanes lower[3], upper[3], sums[3][kVectors], squares[3][kVectors];
   for (int axis = 0; axis < 3; ++axis) {

@@ -94,9 +94,8 @@ void FullCells::find(const PointsView& positions, Real side, int threads) {
   }
   const FullCellsKernels& kernels = full_cells_kernels(chosen_isa());
   parallel_chunks(n, threads, kBlock, [&](Index begin, Index end) {
-    thread_local std::vector<Real> room;
     std::array<std::uint32_t, kBlock + kMostLanes> found;
-    kernels.locate(point_block(positions, begin, end, room), end - begin, block, found.data());
+    kernels.locate(point_block(positions, begin, end), end - begin, block, found.data());
     std::copy_n(found.data(), end - begin, cells_.data() + begin);
     for (Index i = 0; i < end - begin; ++i) {
       __atomic_store_n(&holds_[found[i]], std::uint8_t{1}, __ATOMIC_RELAXED);

@@ -5,8 +5,6 @@
 namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
 
-using Ints = Mask::Vector;
-
 void locate(const Real* xyz, Index count, const CellBlock& block, std::uint32_t* cells) {
   for (Index i = 0; i < count; i += kLanes) {
     const Vec3Lanes p = load_points(xyz + 3 * i);

@@ -22,9 +22,8 @@ Real nearest_front(const PointsView& positions, Real radius, const FrameBlock& f
   const Index n = positions.cols();
   std::vector<Real> nearest(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
-    thread_local std::vector<Real> room;
-    nearest[static_cast<std::size_t>(first / kBlock)] = kernels.nearest(
-        point_block(positions, first, last, room), last - first, radius, beyond, terms);
+    nearest[static_cast<std::size_t>(first / kBlock)] =
+        kernels.nearest(point_block(positions, first, last), last - first, radius, beyond, terms);
   });
   return std::accumulate(nearest.begin(), nearest.end(), terms.far,
                          [](Real a, Real b) { return std::min(a, b); });

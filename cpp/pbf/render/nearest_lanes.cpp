@@ -16,11 +16,11 @@ float nearest(const float* xyz,
     const Vec3Lanes center = eye_space(frame, load_points(xyz + 3 * i));
     const Lanes depth = -center.z;
     const Lanes spread = frame.perspective ? depth : Lanes(1.0F);
-    const Mask is_particle{lane_numbers() < (static_cast<int>(count - i) - Ints{})};
     const Mask seen = (depth + radius > Lanes(frame.near)) & (depth - radius < Lanes(frame.far)) &
                       (abs(center.x) < frame.half_width * spread + beyond[0]) &
                       (abs(center.y) < frame.half_height * spread + beyond[1]);
-    least = min(select(seen & is_particle, max(depth - radius, frame.near), kNone), least);
+    least =
+        min(select(seen & first_lanes(count - i), max(depth - radius, frame.near), kNone), least);
   }
   float result = kNone;
   for (int lane = 0; lane < kLanes; ++lane) {

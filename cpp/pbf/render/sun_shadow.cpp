@@ -58,8 +58,7 @@ Grid columns(const PointsView& positions, const SunShadow& map, Real volume, Rea
   const std::array<Deposit::Size, 1> grids{{{map.width, map.height}}};
   Deposit deposit;
   deposit.add(grids, positions.cols(), kThreads, [&](Index first, Index last, Shares& shares) {
-    thread_local std::vector<Real> room;
-    kernels.share(point_block(positions, first, last, room), last - first, frame,
+    kernels.share(point_block(positions, first, last), last - first, frame,
                   volume / (texel * texel), shares);
   });
   Grid sum(static_cast<std::size_t>(map.width) * map.height);

@@ -1,4 +1,3 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/anisotropy.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -6,10 +5,11 @@
 #include <doctest/doctest.h>
 
 #include "clouds.hpp"
-#include <cstdlib>
+#include "instruction_sets.hpp"
 #include <random>
 
 using namespace pbf;
+using test::for_each_isa;
 using test::lattice;
 
 namespace {
@@ -163,10 +163,5 @@ TEST_CASE("anisotropy: the same bits for any number of threads and every instruc
   };
   const std::vector<Real> expected = found(1);
   for (const int threads : {2, 3, 7}) CHECK(found(threads) == expected);
-  for (const Isa isa : usable_isas()) {
-    setenv("PBF_ISA", isa_name(isa), 1);
-    CAPTURE(isa_name(isa));
-    CHECK(found(2) == expected);
-  }
-  unsetenv("PBF_ISA");
+  for_each_isa([&] { CHECK(found(2) == expected); });
 }

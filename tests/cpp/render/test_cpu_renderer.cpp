@@ -3,12 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include "instruction_sets.hpp"
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 using namespace pbf;
+using test::for_each_isa;
 
 namespace {
 
@@ -120,12 +122,7 @@ TEST_CASE("cpu_renderer: every feature at every size, the same bits with any ins
       };
       setenv("PBF_ISA", isa_name(usable_isas().front()), 1);
       const std::vector<std::uint8_t> expected = drawn();
-      for (const Isa isa : usable_isas()) {
-        CAPTURE(isa_name(isa));
-        setenv("PBF_ISA", isa_name(isa), 1);
-        CHECK(drawn() == expected);
-      }
-      unsetenv("PBF_ISA");
+      for_each_isa([&] { CHECK(drawn() == expected); });
     }
   }
 }

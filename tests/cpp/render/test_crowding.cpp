@@ -1,18 +1,18 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/crowding.hpp"
 #include "pbf/render/params.hpp"
 
 #include <doctest/doctest.h>
 
 #include "clouds.hpp"
+#include "instruction_sets.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <set>
 
 using namespace pbf;
+using test::for_each_isa;
 using test::lattice;
 
 namespace {
@@ -216,10 +216,5 @@ TEST_CASE("crowding: the same bits for any number of threads and every instructi
   CHECK(std::ranges::count(expected, 1) > 5000);
   CHECK(std::ranges::count_if(expected, [](Real c) { return c < 0.5F; }) > 1000);
   for (const int threads : {2, 3, 7}) CHECK(found(threads) == expected);
-  for (const Isa isa : usable_isas()) {
-    setenv("PBF_ISA", isa_name(isa), 1);
-    CAPTURE(isa_name(isa));
-    CHECK(found(2) == expected);
-  }
-  unsetenv("PBF_ISA");
+  for_each_isa([&] { CHECK(found(2) == expected); });
 }

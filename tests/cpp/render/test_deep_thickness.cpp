@@ -1,14 +1,14 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/raster/deep_thickness.hpp"
 #include "pbf/render/raster/splats.hpp"
 
 #include <doctest/doctest.h>
 
 #include "clouds.hpp"
+#include "instruction_sets.hpp"
 #include <cmath>
-#include <cstdlib>
 
 using namespace pbf;
+using test::for_each_isa;
 
 namespace {
 
@@ -103,12 +103,7 @@ TEST_CASE("deep_thickness: the same bits with every instruction set, none withou
   };
   const std::vector<float> expected = found();
   CHECK(*std::ranges::max_element(expected) > 0.9F);
-  for (const Isa isa : usable_isas()) {
-    setenv("PBF_ISA", isa_name(isa), 1);
-    CAPTURE(isa_name(isa));
-    CHECK(found() == expected);
-  }
-  unsetenv("PBF_ISA");
+  for_each_isa([&] { CHECK(found() == expected); });
 
   raster::Map thickness(96, 64, 0);
   raster::DeepThickness deep;

@@ -1,13 +1,13 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/extent.hpp"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
-#include <cstdlib>
+#include "instruction_sets.hpp"
 #include <random>
 
 using namespace pbf;
+using test::for_each_isa;
 
 namespace {
 
@@ -51,12 +51,7 @@ TEST_CASE("extent: the same bits for any number of threads and every instruction
     CHECK((found.limit == expected.limit).all());
   };
   for (const int threads : {2, 3, 7}) check(threads);
-  for (const Isa isa : usable_isas()) {
-    setenv("PBF_ISA", isa_name(isa), 1);
-    CAPTURE(isa_name(isa));
-    check(2);
-  }
-  unsetenv("PBF_ISA");
+  for_each_isa([&] { check(2); });
 }
 
 TEST_CASE("extent: who flew off along an axis does not count there") {

@@ -1,13 +1,12 @@
-#include "pbf/core/isa.hpp"
 #include "pbf/render/raster/splats.hpp"
 #include "pbf/render/raster/surface_maps.hpp"
 
 #include <doctest/doctest.h>
 
 #include "drawn_splats.hpp"
+#include "instruction_sets.hpp"
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -59,12 +58,7 @@ TEST_CASE("splats: every instruction set draws the same bits") {
   params.radius = 0.06F;
   const Records particles = cloud(3000);
   const DrawnSplats expected = draw(particles, params, 2);
-  for (const Isa isa : usable_isas()) {
-    setenv("PBF_ISA", isa_name(isa), 1);
-    CAPTURE(isa_name(isa));
-    CHECK(draw(particles, params, 2) == expected);
-  }
-  unsetenv("PBF_ISA");
+  for_each_isa([&] { CHECK(draw(particles, params, 2) == expected); });
 }
 
 TEST_CASE("splats: tiles are those that any of the sprites covers") {

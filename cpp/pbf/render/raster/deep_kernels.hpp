@@ -12,6 +12,11 @@ struct DeepKernels {
   static constexpr int kLevels = 14;
   /// Cells around the picture that are complete, and those that belong to no pixel.
   static constexpr int kMargin = 2;
+  /// Cells along a side of the picture, of a level or of each lane's, with the margin.
+  template <class Number>
+  __attribute__((always_inline)) static Number cells_along(int pixels, Number level) {
+    return ((pixels + (1 << level) - 1) >> level) + 2 * kMargin;
+  }
 
   /// What the particles whose flag is 1 add to the levels; those with 0 add nothing.
   /// @param xyz  three numbers each, behind the last kMostLanes more particles' that can be read

@@ -1,6 +1,7 @@
 // Compiled once per instruction set (cpp/pbf_render.cmake).
 #include "pbf/render/raster/deep_kernels.hpp"
 #include "pbf/render/raster/frame_lanes.hpp"
+#include "pbf/render/share_lanes.hpp"
 
 namespace pbf::PBF_ISA_NAMESPACE {
 namespace {
@@ -18,11 +19,6 @@ PBF_INLINE Ints ceil_log2(Lanes a) {
 /// 2^-k.
 PBF_INLINE Lanes inverse_power(Ints k) {
   return {reinterpret_cast<Lanes::Vector>((127 - k) << 23)};
-}
-
-/// Cells along a side of the picture, with the margin.
-PBF_INLINE Ints cells_along(float pixels, Ints level) {
-  return ((static_cast<int>(pixels) + (1 << level) - 1) >> level) + 2 * DeepKernels::kMargin;
 }
 
 void share(const float* xyz,
@@ -47,20 +43,15 @@ void share(const float* xyz,
     const PixelLanes pixel = pixel_of(view, center);
     const Lanes x = pixel.x * per_pixel + (DeepKernels::kMargin - 0.5F);
     const Lanes y = pixel.y * per_pixel + (DeepKernels::kMargin - 0.5F);
-    const Ints width = cells_along(view.width, level), height = cells_along(view.height, level);
-    const Mask inside = (Lanes(0.0F) <= x) & (Lanes(0.0F) <= y) & (x < to_lanes(width - 1)) &
-                        (y < to_lanes(height - 1)) & (depth < Lanes(view.far)) & Mask{is_deep};
-    const Lanes column = floor(select(inside, x, 0.0F)), line = floor(select(inside, y, 0.0F));
+    const Ints width = DeepKernels::cells_along(static_cast<int>(view.width), level);
+    const Ints height = DeepKernels::cells_along(static_cast<int>(view.height), level);
+    const Mask inside = is_within(x, y, width, height) & (depth < Lanes(view.far)) & Mask{is_deep};
     // Along the ray: a cell's area across it is smaller than in the picture's plane.
     const Lanes slant = view.perspective ? sqrt(dot(center, center)) / depth : Lanes(1.0F);
     const Lanes cells_per_meter = pixels_per_meter * per_pixel;
     const Lanes amount = view.volume * slant * cells_per_meter * cells_per_meter;
-    const Ints cell = to_ints(line) * width + to_ints(column);
     std::memcpy(shares.grid + i, &level, sizeof level);
-    std::memcpy(shares.cell + i, &cell, sizeof cell);
-    store(shares.right + i, x - column);
-    store(shares.up + i, y - line);
-    store(shares.amount + i, select(inside, amount, 0.0F));
+    store_shares(shares, i, x, y, width, inside, amount);
   }
 }
 

@@ -18,10 +18,8 @@ constexpr int kMargin = DeepKernels::kMargin;
 std::vector<Deposit::Size> sizes_of(int width, int height) {
   std::vector<Deposit::Size> sizes;
   for (int level = 0; level <= kLevels; ++level) {
-    const auto cells = [&](int pixels) {
-      return ((pixels + (1 << level) - 1) >> level) + 2 * kMargin;
-    };
-    sizes.push_back({cells(width), cells(height)});
+    sizes.push_back(
+        {DeepKernels::cells_along(width, level), DeepKernels::cells_along(height, level)});
   }
   return sizes;
 }
@@ -49,13 +47,11 @@ void DeepThickness::find(const PointsView& positions,
   sizes_ = sizes_of(static_cast<int>(view.width), static_cast<int>(view.height));
   const DeepKernels& kernels = deep_kernels(chosen_isa());
   deposit_.add(sizes_, positions.cols(), threads, [&](Index first, Index last, Shares& shares) {
-    thread_local std::vector<Real> room;
     std::array<std::uint8_t, Shares::kRoom> is_deep{};
     for (Index i = first; i < last; ++i) {
       is_deep[i - first] = places[static_cast<std::size_t>(i)] == FullCells::Place::deep ? 1 : 0;
     }
-    kernels.share(point_block(positions, first, last, room), is_deep.data(), last - first, view,
-                  shares);
+    kernels.share(point_block(positions, first, last), is_deep.data(), last - first, view, shares);
   });
   // From the coarsest that anything was added to down to cells of two pixels.
   cells_.clear();

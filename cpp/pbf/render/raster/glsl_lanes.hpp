@@ -6,17 +6,9 @@
 
 namespace pbf::PBF_ISA_NAMESPACE {
 
-using Ints = Mask::Vector;
-
 PBF_INLINE Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
 PBF_INLINE Mask operator~(Mask a) { return {~a.v}; }
 
-/// 0, 1, 2 …
-PBF_INLINE Ints lane_numbers() {
-  Ints result;
-  for (int lane = 0; lane < kLanes; ++lane) result[lane] = lane;
-  return result;
-}
 PBF_INLINE Lanes abs(Lanes a) {
   return {reinterpret_cast<Lanes::Vector>(reinterpret_cast<Ints>(a.v) & 0x7FFFFFFF)};
 }
