@@ -13,14 +13,8 @@ using Entries = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 
 PBF_INLINE void store(std::uint32_t* to, Entries value) { std::memcpy(to, &value, sizeof value); }
 
-Entries lane_numbers() {
-  Entries numbers{};
-  for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = static_cast<std::uint32_t>(lane);
-  return numbers;
-}
-
 std::uint32_t collect(const Record* x, const Span* ranges, std::size_t count, Candidates to) {
-  const Entries lanes = lane_numbers();
+  const Entries lanes = reinterpret_cast<Entries>(lane_numbers());
   std::uint32_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
     for (std::uint32_t j = ranges[k].begin; j < ranges[k].end; j += kLanes) {
