@@ -54,7 +54,7 @@ RenderParams params(Real spacing) {
 double fragments(const Cloud& of, const RenderParams& drawn, double pixels_per_slope, bool in_cpp) {
   Neighborhoods particles;
   particles.find(of.positions, camera(), drawn.neighbor_distance(), drawn.radius,
-                 Neighborhoods::Deep::last);
+                 Neighborhoods::Deep::last, Neighborhoods::Sorted::around_loose);
   const Eigen::Matrix4f view = camera().view();
   const double r2 = std::pow(static_cast<double>(drawn.radius), 2);
   double sum = 0;

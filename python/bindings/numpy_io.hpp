@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pbf/core/error.hpp"
+#include "pbf/core/finite.hpp"
 #include "pbf/core/types.hpp"
 
 #include <pybind11/numpy.h>
@@ -28,6 +29,7 @@ inline std::string shape_text(const py::array& array) {
 /// Throws unless every number is finite; says which row is the first that is not.
 inline void require_finite(const FloatArray& array, const char* name) {
   const float* data = array.data();
+  if (all_finite({data, static_cast<std::size_t>(array.size())})) return;
   const py::ssize_t row_length =
       array.ndim() > 1 ? array.size() / std::max<py::ssize_t>(array.shape(0), 1) : 1;
   py::ssize_t bad = 0;
@@ -38,12 +40,10 @@ inline void require_finite(const FloatArray& array, const char* name) {
       first = k / row_length;
     }
   }
-  if (bad > 0) {
-    throw InvalidParameter(std::string(name) + ": " + std::to_string(bad) + " of " +
-                           std::to_string(array.size()) +
-                           " numbers are not finite (or too large for float32), the first in row " +
-                           std::to_string(first) + "; must be finite");
-  }
+  throw InvalidParameter(std::string(name) + ": " + std::to_string(bad) + " of " +
+                         std::to_string(array.size()) +
+                         " numbers are not finite (or too large for float32), the first in row " +
+                         std::to_string(first) + "; must be finite");
 }
 
 /// Throws if it is an array of NumPy's that says of some of its numbers that they are none: what

@@ -1,11 +1,11 @@
 #include "pbf/render/checks.hpp"
 
 #include "pbf/core/error.hpp"
+#include "pbf/core/finite.hpp"
 #include "pbf/core/parallel.hpp"
 #include "pbf/render/point_block.hpp"
 
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -13,22 +13,12 @@
 namespace pbf {
 namespace {
 
-/// Adding to the exponents, of which only infinities and what is no number have all bits set,
-/// reaches the sign: no branch, so the compiler makes vectors of it.
-bool all_finite(const Real* numbers, Index count) {
-  std::uint32_t reached = 0;
-  for (Index k = 0; k < count; ++k) {
-    reached |= (std::bit_cast<std::uint32_t>(numbers[k]) & 0x7F800000U) + 0x00800000U;
-  }
-  return reached >> 31 == 0;
-}
-
 void require_finite(const PointsView& positions) {
   constexpr Index kBlock = 1 << 12;
   std::atomic<bool> sound{true};
   parallel_chunks(positions.cols(), 0, kBlock, [&](Index first, Index last) {
     const Real* block = point_block(positions, first, last);
-    if (!all_finite(block, 3 * (last - first))) sound = false;
+    if (!all_finite({block, static_cast<std::size_t>(3 * (last - first))}, 1)) sound = false;
   });
   if (sound) return;
   Index first = 0;

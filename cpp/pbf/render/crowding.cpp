@@ -19,11 +19,11 @@ void Crowding::find(Neighborhoods& particles, int threads) {
   const CrowdingKernels& kernels = crowding_kernels(chosen_isa());
   const Real inverse_s2 = 1 / (particles.distance() * particles.distance());
   const Records& x = particles.sorted();
-  const std::vector<std::uint8_t>& full = particles.full();
-  m_.resize(full.size());
-  std::ranges::transform(full, m_.begin(), [](auto flag) { return flag != 0 ? kBodySum : -1; });
-  body_ = full;
-  wanted_.assign(full.size(), 0);
+  const std::vector<std::uint8_t>& in_body = particles.in_body();
+  m_.resize(in_body.size());
+  std::ranges::transform(in_body, m_.begin(), [](auto flag) { return flag != 0 ? kBodySum : -1; });
+  body_ = in_body;
+  wanted_.assign(in_body.size(), 0);
 
   const auto is_no_body = [&](std::uint32_t k) { return !is_set(body_[k]); };
   const auto is_wanted = [&](std::uint32_t k) { return m_[k] < 0 && is_set(wanted_[k]); };
@@ -32,15 +32,15 @@ void Crowding::find(Neighborhoods& particles, int threads) {
   };
   // Which of these a thread finds marked depends on the others' pace; the result does not.
   const auto sum_and_mark = [&](auto k, const Candidates& candidates, CandidateRoom& room) {
-    if (kernels.is_beside(candidates, x[k], inverse_s2, full.data())) {
+    if (kernels.is_beside(candidates, x[k], inverse_s2, in_body.data())) {
       set(body_[k]);
       return;
     }
     sum(k, candidates, room);
     // Those around a particle in a body are too; of the others all that are around are needed.
-    const bool in_body = m_[k] == kBodySum;
-    kernels.mark(candidates, room.numbers(), in_body ? kBodyShare : 0,
-                 in_body ? body_.data() : wanted_.data());
+    const bool is_body = m_[k] == kBodySum;
+    kernels.mark(candidates, room.numbers(), is_body ? kBodyShare : 0,
+                 is_body ? body_.data() : wanted_.data());
   };
   const auto take_largest = [&](auto k, const Candidates& candidates, CandidateRoom&) {
     const float most = kernels.largest(candidates, x[k], inverse_s2, m_.data());

@@ -239,14 +239,15 @@ Surface FluidRenderer::draw_fluid(const PointsView& positions,
                                   bool with_back) {
   Passes& pass = *passes_;
   Targets& to = *targets_;
+  const bool stretched = params.anisotropy > 0;
   stage("crowding", [&] {
-    pass.particles.find(positions, camera, params.neighbor_distance(), params.radius,
-                        Neighborhoods::Deep::last);
+    pass.particles.find(
+        positions, camera, params.neighbor_distance(), params.radius, Neighborhoods::Deep::last,
+        stretched ? Neighborhoods::Sorted::shallow : Neighborhoods::Sorted::around_loose);
     if (params.drop_radius) pass.crowding.find(pass.particles);
   });
   const Real nearest = nearest_front(pass.particles.shallow(), params.radius, frame, 0);
   const Records& particles = pass.particles.particles();
-  const bool stretched = params.anisotropy > 0;
   if (stretched) {
     stage("anisotropy",
           [&] { pass.anisotropy.find(pass.particles, particles.size(), params.anisotropy); });

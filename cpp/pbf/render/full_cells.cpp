@@ -6,6 +6,7 @@
 #include "pbf/render/point_block.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace pbf {
 PBF_TABLE_BY_ISA(FullCellsKernels, full_cells_kernels, full_cells_kernels)
@@ -19,10 +20,11 @@ constexpr Index kBlock = 1 << 12;  // cells or particles at a time
 
 template <class Combine>
 void FullCells::around(Flags& cells, int reach, int threads, Combine&& combine) {
+  scratch_.resize(cells.size());
   for (const Index stride : strides_) {
-    // In the margin there need not be that many: what is found there means nothing.
-    const Index margin = stride * reach;
-    scratch_.resize(cells.size());
+    const Index margin = stride * reach;  // nobody's neighbors are looked for there
+    std::copy_n(cells.begin(), margin, scratch_.begin());
+    std::copy_n(cells.end() - margin, margin, scratch_.end() - margin);
     parallel_chunks(std::ssize(cells) - 2 * margin, threads, kBlock, [&](Index first, Index last) {
       const Index count = last - first;
       std::uint8_t* to = scratch_.data() + margin + first;
@@ -39,13 +41,12 @@ void FullCells::around(Flags& cells, int reach, int threads, Combine&& combine) 
 }
 
 template <class F>
-void FullCells::for_inner(int threads, F&& f) const {
-  parallel_chunks(sides_[2] - 2 * kMargin, threads, 1, [&](Index z, Index) {
-    for (Index y = kMargin; y < sides_[1] - kMargin; ++y) {
-      const Index row = (z + kMargin) * strides_[2] + y * strides_[1];
-      for (Index x = kMargin; x < sides_[0] - kMargin; ++x) {
-        f(static_cast<std::size_t>(row + x), x, y, z + kMargin);
-      }
+void FullCells::for_cells(int threads, F&& f) const {
+  parallel_chunks(sides_[2], threads, 1, [&](Index z, Index) {
+    for (Index y = 0; y < sides_[1]; ++y) {
+      const Index row = z * strides_[2] + y * strides_[1];
+      for (Index x = 0; x < sides_[0]; ++x)
+        f(static_cast<std::size_t>(row + x), CellNumber(x, y, z));
     }
   });
 }
@@ -56,10 +57,41 @@ void FullCells::expose(const Vec3& direction, Real from, int threads) {
   };
   const Vec3 nearest = (direction.array() > 0).select(Vec3::Zero(), sides_.cast<Real>().matrix());
   if (direction.dot(middle(nearest)) > from) return;
-  for_inner(threads, [&](std::size_t k, Index x, Index y, Index z) {
-    const Vec3 cell(static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z));
-    if (places_[k] == Place::deep && direction.dot(middle(cell)) <= from) places_[k] = Place::full;
+  for_cells(threads, [&](std::size_t k, const CellNumber& cell) {
+    if (places_[k] != Place::deep) return;
+    if (direction.dot(middle(cell.cast<Real>())) <= from) places_[k] = Place::body;
   });
+}
+
+void FullCells::find_places(int threads) {
+  const auto for_blocks = [&](auto&& f) {
+    parallel_chunks(std::ssize(holds_), threads, kBlock, [&](Index first, Index last) {
+      for (Index k = first; k < last; ++k) f(k);
+    });
+  };
+  full_ = holds_;
+  around(full_, 1, threads, [](int a, int b) { return a & b; });
+  body_ = full_;
+  around(body_, 1, threads, [](int a, int b) { return a | b; });
+  // 2 where loose, 1 where of a body but not full, else 0: first of the cell, then the most of those
+  // up to two away.
+  near_.resize(holds_.size());
+  const std::uint8_t *holds = holds_.data(), *full = full_.data(), *body = body_.data();
+  for_blocks([holds, full, body, near = near_.data()](Index k) {
+    near[k] = static_cast<std::uint8_t>((2 - body[k] - full[k]) & -holds[k]);
+  });
+  if (!has_all_) {  // who flew off may be just beyond the margin
+    for_cells(threads, [&](std::size_t k, const CellNumber& cell) {
+      if ((cell < kMargin || cell >= sides_ - kMargin).any()) near_[k] = 2;
+    });
+  }
+  around(near_, 2, threads, [](int a, int b) { return std::max(a, b); });
+  places_.resize(holds_.size());
+  for_blocks([body, near = near_.data(), places = places_.data()](Index k) {
+    places[k] = static_cast<Place>((3 - near[k]) & -body[k]);
+  });
+  static_assert(Place{0} == Place::loose && Place{1} == Place::beside && Place{2} == Place::body &&
+                Place{3} == Place::deep);
 }
 
 void FullCells::find(const PointsView& positions, Real side, int threads) {
@@ -79,7 +111,7 @@ void FullCells::find(const PointsView& positions, Real side, int threads) {
   has_all_ = false;
   if (n == 0 || !(counts.cast<double>().prod() <= most)) {
     std::ranges::fill(cells_, 0);
-    places_.assign(1, Place::open);
+    places_.assign(1, Place::loose);
     return;
   }
   sides_ = counts.cast<Index>();
@@ -102,19 +134,8 @@ void FullCells::find(const PointsView& positions, Real side, int threads) {
     }
   });
 
-  has_all_ = holds_[0] == 0;
-  full_ = holds_;
-  around(full_, 1, threads, [](int a, int b) { return a & b; });
-  // Beyond the margin there may be a particle that flew off: all of the margin is open.
-  places_.assign(size, Place::open);
-  near_open_.assign(size, 1);
-  for_inner(threads, [&](std::size_t k, Index, Index, Index) {
-    near_open_[k] = holds_[k] & (full_[k] ^ 1);
-  });
-  around(near_open_, 2, threads, [](int a, int b) { return a | b; });
-  for_inner(threads, [&](std::size_t k, Index, Index, Index) {
-    if (full_[k] != 0) places_[k] = near_open_[k] != 0 ? Place::full : Place::deep;
-  });
+  has_all_ = std::exchange(holds_[0], 0) == 0;
+  find_places(threads);
 }
 
 }  // namespace pbf

@@ -7,20 +7,22 @@
 
 namespace pbf {
 
-/// Tells by cells alone who is within a body of fluid. A cell is *full* if it and the 26 around it
-/// all hold particles, and *open* if it holds some and is not full. A particle is *deep* if its
-/// cell and those up to two cells away are not open: then nobody sees it from outside of the fluid,
-/// and no particle in an open cell is within two cells' sides.
+/// Tells by cells alone who is in a body of fluid. A cell is *full* if it and the 26 around it all
+/// hold particles. A particle is of a *body* if it lies in such a block of 27, that is, if its cell
+/// or one around it is full; others are *loose*: drops, spray, sheets, and the sharp edges of
+/// bodies. It is *deep* if of the cells up to two away from its own all that hold particles are
+/// full: then nobody sees it from outside of the fluid.
 ///
-/// Cells stand where they do in the world, whatever the particles. All are open where their number
-/// would be out of proportion to that of the particles, and where single particles flew off to.
+/// Cells stand where they do in the world, whatever the particles. All are loose where the number
+/// of cells would be out of proportion to theirs, and so are single ones that flew off.
 class FullCells {
  public:
-  enum class Place : std::uint8_t { open, full, deep };
+  /// Of a body, *beside* is who has a loose particle at most two cells away.
+  enum class Place : std::uint8_t { loose, beside, body, deep };
 
   /// @param side  of the cells [m]
   void find(const PointsView& positions, Real side, int threads);
-  /// Makes full ones of the deep cells whose middle x is not behind a plane: direction · x <= from.
+  /// Of deep cells whose middle x is not behind a plane, direction · x <= from, none is deep.
   void expose(const Vec3& direction, Real from, int threads);
 
   /// Of particle i.
@@ -35,21 +37,24 @@ class FullCells {
 
  private:
   using Flags = std::vector<std::uint8_t>;
-  /// What `combine` makes of each cell and its neighbors up to `reach` to both sides on each axis.
+  using CellNumber = Eigen::Array<Index, 3, 1>;
+
+  void find_places(int threads);
+  /// What `combine` makes of each cell and its neighbors up to `reach` to both sides on each axis;
+  /// in the margin anything.
   template <class Combine>
   void around(Flags& cells, int reach, int threads, Combine&& combine);
-
-  /// Calls f(cell, x, y, z) for all cells but those of the margin.
+  /// Calls f(k, number on each axis) for all cells.
   template <class F>
-  void for_inner(int threads, F&& f) const;
+  void for_cells(int threads, F&& f) const;
 
   Real side_ = 0;
-  Vec3 first_ = Vec3::Zero();                 // number of the least cell on each axis
-  Eigen::Array<Index, 3, 1> sides_{0, 0, 0};  // [cells]
+  Vec3 first_ = Vec3::Zero();  // number of the least cell on each axis
+  CellNumber sides_{0, 0, 0};  // [cells]
   std::array<Index, 3> strides_{1, 0, 0};
   bool has_all_ = false;
   std::vector<std::uint32_t> cells_;  // of the particles; 0, in the margin, for who is in none
-  Flags holds_, full_, near_open_, scratch_;
+  Flags holds_, full_, body_, near_, scratch_;
   std::vector<Place> places_;  // of the cells
 };
 

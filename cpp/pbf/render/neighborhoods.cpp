@@ -26,31 +26,30 @@ struct Starts {
 }  // namespace
 
 /// Sets deep particles apart from the others, and picks those to sort.
-void Neighborhoods::part(const PointsView& positions,
-                         const Camera& camera,
-                         Deep deep,
-                         int threads) {
+void Neighborhoods::part(
+    const PointsView& positions, const Camera& camera, Deep deep, Place sorted_to, int threads) {
   const Index n = positions.cols();
   const Vec3& eye = camera.eye;
   const Real farthest = 0.5F * static_cast<Real>(kFarthestCell) * s_;
   const auto is_near = [&](const Vec3& x) { return ((x - eye).array().abs() <= farthest).all(); };
   const bool all_near =
       s_ > 0 && cells_.has_all() && is_near(cells_.lower()) && is_near(cells_.upper());
-  const auto is_sorted = [&](Index i) { return all_near || (s_ > 0 && is_near(positions.col(i))); };
+  const auto is_sorted = [&](Index i) {
+    return places_[static_cast<std::size_t>(i)] <= sorted_to &&
+           (all_near || (s_ > 0 && is_near(positions.col(i))));
+  };
   places_.resize(static_cast<std::size_t>(n));
   std::vector<Starts> starts(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
   parallel_chunks(n, threads, kBlock, [&](Index first, Index last) {
     Starts& count = starts[static_cast<std::size_t>(first / kBlock)];
     const auto places = std::span(places_).subspan(first, last - first);
-    for (Index i = first; i < last; ++i) places[i - first] = s_ > 0 ? cells_[i] : Place::open;
+    for (Index i = first; i < last; ++i) places[i - first] = s_ > 0 ? cells_[i] : Place::loose;
     count.deep = std::ranges::count(places, Place::deep);
     if (all_near) {
-      count.near = last - first - count.deep;
+      count.near = std::ranges::count_if(places, [&](Place at) { return at <= sorted_to; });
       return;
     }
-    for (Index i = first; i < last; ++i) {
-      count.near += places[i - first] != Place::deep && is_sorted(i) ? 1 : 0;
-    }
+    for (Index i = first; i < last; ++i) count.near += is_sorted(i) ? 1 : 0;
   });
   Starts sum;
   for (Starts& start : starts) {
@@ -75,8 +74,8 @@ void Neighborhoods::part(const PointsView& positions,
       particles_[shallow] = {positions(0, i), positions(1, i), positions(2, i), 1};
       if (!is_sorted(i)) continue;
       const Vec3 x = positions.col(i) - eye;
-      const bool is_full = places_[static_cast<std::size_t>(i)] == Place::full;
-      near_[at.near] = {x.x(), x.y(), x.z(), is_full ? 1.0F : 0.0F};
+      const bool in_body = places_[static_cast<std::size_t>(i)] != Place::loose;
+      near_[at.near] = {x.x(), x.y(), x.z(), in_body ? 1.0F : 0.0F};
       ids_[static_cast<std::size_t>(at.near++)] = static_cast<std::uint32_t>(shallow);
     }
     if (deep == Deep::left_out) return;
@@ -91,12 +90,12 @@ void Neighborhoods::part(const PointsView& positions,
 void Neighborhoods::sort(int threads) {
   const Index near = near_.size();
   sorted_.resize(near);
-  full_.resize(ids_.size());
+  in_body_.resize(ids_.size());
   if (near == 0) return;
   grid_.build(near_, s_, threads);
   parallel_for(near, threads, [&](Index k) {
     sorted_[k] = near_[grid_.order()[static_cast<std::size_t>(k)]];
-    full_[static_cast<std::size_t>(k)] = sorted_[k].w == 1 ? 1 : 0;
+    in_body_[static_cast<std::size_t>(k)] = sorted_[k].w == 1 ? 1 : 0;
   });
 }
 
@@ -105,6 +104,7 @@ void Neighborhoods::find(const PointsView& positions,
                          Real s,
                          Real radius,
                          Deep deep,
+                         Sorted sorted,
                          int threads) {
   s_ = s;
   if (s > 0) {
@@ -114,7 +114,7 @@ void Neighborhoods::find(const PointsView& positions,
     const Real open_to = radius < 0.4F * s ? kAll : camera.near + 2 * s;
     cells_.expose(ahead, ahead.dot(camera.eye) + open_to, threads);
   }
-  part(positions, camera, deep, threads);
+  part(positions, camera, deep, sorted == Sorted::shallow ? Place::body : Place::beside, threads);
   sort(threads);
 }
 

@@ -21,8 +21,8 @@ Anisotropy found_around(const Points& x, Real anisotropy, const Vec3& eye, int t
   camera.eye = eye;
   camera.target = eye - Vec3::UnitZ();
   Neighborhoods particles;
-  particles.find(x, camera, kDistance, 0, Neighborhoods::Deep::last,
-                 threads);  // small sprites hide nothing
+  particles.find(x, camera, kDistance, 0, Neighborhoods::Deep::last,  // small sprites hide nothing
+                 Neighborhoods::Sorted::shallow, threads);
   for (Index i = 0; i < x.cols(); ++i) particles.particles()[i].w = 0.5F;
   Anisotropy found;
   found.find(particles, x.cols(), anisotropy, threads);

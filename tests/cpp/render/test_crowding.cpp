@@ -33,7 +33,8 @@ struct Found {
 /// With sprites of half of s: those of a body hide what is deep in it.
 Found find(const Points& positions, Real s, const Camera& camera = camera_at(Vec3::Zero())) {
   Neighborhoods result;
-  result.find(positions, camera, s, 0.5F * s, Neighborhoods::Deep::last);
+  result.find(positions, camera, s, 0.5F * s, Neighborhoods::Deep::last,
+              Neighborhoods::Sorted::around_loose);
   Crowding().find(result);
   const Index n = positions.cols();
   Found found{Points(3, n), Scalars(n), n - result.shallow_count()};
@@ -55,26 +56,30 @@ std::vector<std::array<Real, 3>> sorted(const Points& x) {
   return columns;
 }
 
-/// Whether each is in a full cell, by the definition.
-std::vector<bool> is_full(const Points& x, double side) {
+/// Whether each is in a block of 27 cells that all hold particles.
+std::vector<bool> in_body(const Points& x, double side) {
   using Cell = std::array<int, 3>;
   const auto cell_of = [&](Index i) {
     Cell cell;
     for (int k = 0; k < 3; ++k) cell[k] = static_cast<int>(std::floor(double(x(k, i)) / side));
     return cell;
   };
-  std::set<Cell> cells;
-  for (Index i = 0; i < x.cols(); ++i) cells.insert(cell_of(i));
-  std::vector<bool> full;
-  for (Index i = 0; i < x.cols(); ++i) {
-    const Cell at = cell_of(i);
-    int held = 0;
+  const auto among_27 = [](const std::set<Cell>& cells, const Cell& at) {
+    int count = 0;
     for (int k = 0; k < 27; ++k) {
-      held += cells.contains({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1}) ? 1 : 0;
+      count +=
+          cells.contains({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1}) ? 1 : 0;
     }
-    full.push_back(held == 27);
+    return count;
+  };
+  std::set<Cell> holding, full;
+  for (Index i = 0; i < x.cols(); ++i) holding.insert(cell_of(i));
+  for (const Cell& cell : holding) {
+    if (among_27(holding, cell) == 27) full.insert(cell);
   }
-  return full;
+  std::vector<bool> found;
+  for (Index i = 0; i < x.cols(); ++i) found.push_back(among_27(full, cell_of(i)) > 0);
+  return found;
 }
 
 /// By the formula, over all pairs.
@@ -82,13 +87,13 @@ Scalars brute_force(const Points& x, Real s) {
   const auto u = [&](Index i, Index j) {
     return 1 - (x.col(i).cast<double>() - x.col(j).cast<double>()).squaredNorm() / (s * s);
   };
-  const std::vector<bool> full = is_full(x, 0.6F * s);
+  const std::vector<bool> body = in_body(x, 0.6F * s);
   Eigen::ArrayXd m = Eigen::ArrayXd::Zero(x.cols());
   for (Index i = 0; i < x.cols(); ++i) {
     for (Index j = 0; j < x.cols(); ++j) {
       if (j != i && u(i, j) > 0) m[i] += u(i, j) * u(i, j);
     }
-    if (full[static_cast<std::size_t>(i)]) m[i] = 9;
+    if (body[static_cast<std::size_t>(i)]) m[i] = 9;
   }
   m = m.min(9);
   Scalars c(x.cols());
@@ -109,7 +114,7 @@ TEST_CASE("crowding: the formula, for a cloud of drops, groups and bodies") {
   std::normal_distribution<Real> spread(0, 1);
   Points x(3, 1500);
   for (Index i = 0; i < x.cols(); ++i) {
-    const Real width = i < 500 ? 1.5F : i < 1000 ? 4.0F : 12.0F;
+    const Real width = i < 500 ? 1.5F : i < 1000 ? 3.0F : 6.0F;
     x.col(i) = width * Vec3(spread(random), spread(random), spread(random)) + Vec3(30, -20, 5);
   }
   const Found found = find(x, 2.4F, camera_at({25, -20, 0}));
@@ -140,7 +145,8 @@ TEST_CASE("crowding: nothing is hidden from within, by the near plane, or by sma
   const Points x = lattice(20, 20, 20);
   const auto deep = [&](const Camera& camera, Real radius = 1.2F) {
     Neighborhoods particles;
-    particles.find(x, camera, 2.4F, radius, Neighborhoods::Deep::left_out);
+    particles.find(x, camera, 2.4F, radius, Neighborhoods::Deep::left_out,
+                   Neighborhoods::Sorted::shallow);
     CHECK(particles.particles().size() == particles.shallow_count());
     return x.cols() - particles.shallow_count();
   };
@@ -206,7 +212,8 @@ TEST_CASE("crowding: the same bits for any number of threads and every instructi
   }
   const auto found = [&](int threads) {
     Neighborhoods particles;
-    particles.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, Neighborhoods::Deep::last, threads);
+    particles.find(x, camera_at(Vec3::Zero()), 2.4F, 1.2F, Neighborhoods::Deep::last,
+                   Neighborhoods::Sorted::around_loose, threads);
     Crowding().find(particles, threads);
     std::vector<Real> c;
     for (Index i = 0; i < x.cols(); ++i) c.push_back(particles.particles()[i].w);

@@ -108,7 +108,7 @@ TEST_CASE("deep_thickness: the same bits with every instruction set, none withou
   raster::Map thickness(96, 64, 0);
   raster::DeepThickness deep;
   const FrameBlock frame = frame_block(camera, 96, 64);
-  deep.find(x, std::vector(static_cast<std::size_t>(x.cols()), FullCells::Place::full),
+  deep.find(x, std::vector(static_cast<std::size_t>(x.cols()), FullCells::Place::body),
             raster::splat_view(frame, {.radius = 0.04F}), 0);
   raster::Tiles tiles(96, 64);
   tiles.mark(1, 1);

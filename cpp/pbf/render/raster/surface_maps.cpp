@@ -50,15 +50,16 @@ void SurfaceMaps::find(const PointsView& positions,
   const FrameBlock frame = frame_block(camera, depth_.width(), depth_.height());
   const SplatView view = splat_view(frame, params);
   const bool is_picture = purpose == For::picture;
+  const bool stretched = params.anisotropy > 0;
   milliseconds_.clear();
   stage("crowding", [&] {
-    particles_.find(positions, camera, params.neighbor_distance(), params.radius,
-                    is_picture ? Neighborhoods::Deep::left_out : Neighborhoods::Deep::last,
-                    threads);
+    particles_.find(
+        positions, camera, params.neighbor_distance(), params.radius,
+        is_picture ? Neighborhoods::Deep::left_out : Neighborhoods::Deep::last,
+        stretched ? Neighborhoods::Sorted::shallow : Neighborhoods::Sorted::around_loose, threads);
     if (params.drop_radius) crowding_.find(particles_, threads);
   });
   const Records& particles = particles_.particles();
-  const bool stretched = params.anisotropy > 0;
   if (stretched) {
     stage("anisotropy",
           [&] { anisotropy_.find(particles_, particles.size(), params.anisotropy, threads); });
