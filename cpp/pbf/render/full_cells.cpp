@@ -73,8 +73,8 @@ void FullCells::find_places(int threads) {
   around(full_, 1, threads, [](int a, int b) { return a & b; });
   body_ = full_;
   around(body_, 1, threads, [](int a, int b) { return a | b; });
-  // 2 where loose, 1 where of a body but not full, else 0: first of the cell, then the most of those
-  // up to two away.
+  // 2 where loose, 1 where of a body but not full, else 0: of the cell first, then the most of
+  // those up to two away.
   near_.resize(holds_.size());
   const std::uint8_t *holds = holds_.data(), *full = full_.data(), *body = body_.data();
   for_blocks([holds, full, body, near = near_.data()](Index k) {
