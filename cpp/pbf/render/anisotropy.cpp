@@ -45,7 +45,7 @@ void Anisotropy::find(const Neighborhoods& particles, Index count, Real anisotro
   const Real s = particles.distance();
   for_each_with_candidates(
       particles, threads, [](std::uint32_t) { return true; },
-      [&](std::uint32_t k, const Candidates& candidates, CandidateRoom&) {
+      [&](std::uint32_t k, const Candidates& candidates) {
         const Moments sum = kernels.moments(candidates, particles.sorted()[k], 1 / s);
         const double a = anisotropy * std::min(1.0, (sum.w - 1) / kFewest);
         if (!(a > 0)) return;

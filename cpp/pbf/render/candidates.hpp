@@ -9,7 +9,7 @@
 
 namespace pbf {
 
-/// Room for the candidates around a cell, and for a number of each.
+/// Room for the candidates around a cell.
 class CandidateRoom {
  public:
   Candidates candidates(CellGrid::Ranges ranges) {
@@ -17,19 +17,18 @@ class CandidateRoom {
     for (const Span& range : ranges) most += range.end - range.begin;
     if (entries_.size() < most) {
       entries_.resize(2 * most);
-      numbers_.resize(4 * entries_.size());
+      numbers_.resize(3 * entries_.size());
     }
     Real* x = numbers_.data();
     return {x, x + entries_.size(), x + 2 * entries_.size(), entries_.data(), 0};
   }
-  Real* numbers() { return numbers_.data() + 3 * entries_.size(); }
 
  private:
   std::vector<Real> numbers_;
   std::vector<std::uint32_t> entries_;
 };
 
-/// Calls f(k, candidates, room) for the sorted particles k that wanted(k) picks. Candidates are all
+/// Calls f(k, candidates) for the sorted particles k that wanted(k) picks. Candidates are all
 /// that are within the distance of k, itself among them, and others that are farther away.
 template <class Wanted, class F>
 void for_each_with_candidates(const Neighborhoods& particles, int threads, Wanted&& wanted, F&& f) {
@@ -47,7 +46,7 @@ void for_each_with_candidates(const Neighborhoods& particles, int threads, Wante
           candidates = room.candidates(ranges);
           candidates.count = loops.collect(sorted, ranges.data(), ranges.size(), candidates);
         }
-        f(k, candidates, room);
+        f(k, candidates);
       }
     };
     particles.grid().for_each_cell(first, last, cell);

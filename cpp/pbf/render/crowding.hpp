@@ -16,17 +16,14 @@ namespace pbf {
 /// is 0.55 in a sheet of a single layer, 0.4 in a cube of eight and 0.2 in a row.
 ///
 /// By sums alone c is 0.9 or more in such a body as well, but for spray so dense that drops fill 27
-/// cells. Where m_i is 9, c_j is 1 for every j with u_ij >= 2/3, so that one sum answers for ten
-/// particles around.
+/// cells.
 class Crowding {
  public:
   /// Writes c as the particles' fourth number. Of those that are not sorted it stays as it is.
   void find(Neighborhoods& particles, int threads = 0);
 
  private:
-  std::vector<Real> m_;               ///< of the sorted particles; -1: not known
-  std::vector<std::uint8_t> body_;    ///< c = 1 is known
-  std::vector<std::uint8_t> wanted_;  ///< m is needed
+  std::vector<Real> m_;  // of the sorted particles
 };
 
 }  // namespace pbf
