@@ -23,6 +23,8 @@ const float SPREAD = 3.0;       // of rays from a body's surface, in that of a p
 const float LEAST_WAY = 1e-4;   // in the fluid; shorter ones count as this [sprites' radii]
 const int MESH_STEPS = 24;      // of a ray that looks for a mesh
 const int EXIT_STEPS = 6;       // of one that looks for its way out of the fluid
+const int BACK_STEPS = 6;       // of one that looks for the far side
+const int BOUNCES = 3;          // of a ray in a tank: as many as a corner has walls
 
 // Share of unpolarized light that a smooth dielectric mirrors (Fresnel); c is the cosine of
 // incidence.
@@ -98,7 +100,7 @@ float inside_fluid(Ray ray, float way) {
   float behind = -at.z - depth_of(front);
   float before = depth_of(texelFetch(u_back, pixel, 0).r) + at.z;
   float length = behind + before;
-  float filled = filling(texelFetch(u_thickness, pixel, 0).r, length, length);
+  float filled = filling(texelFetch(u_thickness, pixel, 0).r + u_radius, length, length);
   float inside = min(min(behind, before) / u_radius + 1.0, 2.0 * filled - 1.0);
   bool is_fluid = is_surface(front) && at.z < 0.0;
   return is_fluid ? clamp(inside, -1.0, 1.0) : -1.0;
@@ -133,7 +135,7 @@ float way_inside(Ray ray, float most) {
 // and forth between both as far as the next wall.
 void follow_to_wall_or_floor(inout Ray ray) {
   bool inside = true, off_bottom = false;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < BOUNCES; ++k) {
     vec3 outward;
     float to_floor = distance_to_ground(ray.at, ray.direction);
     float to_wall = distance_to_wall(ray.at, ray.direction, outward);
@@ -142,15 +144,17 @@ void follow_to_wall_or_floor(inout Ray ray) {
     float to_surface = k == 0 || !inside ? way : way_inside(ray, way);
     ray.way += off_bottom ? way : to_surface;
     ray.at += way * ray.direction;
-    float passes = floor(way / max(to_surface, LEAST_WAY * u_radius));
-    bool comes_down = off_bottom && mod(passes, 2.0) > 0.5;
-    ray.direction -= comes_down ? 2.0 * dot(ray.direction, u_up) * u_up : vec3(0.0);
+    // Whether it goes up or down when it comes to the wall is the less known the more often it has
+    // met the surface by then: the mean of both goes level.
+    float steep = min(to_surface / max(way, LEAST_WAY * u_radius), 1.0);
+    float level = off_bottom ? 1.0 - steep * steep : 0.0;
+    ray.direction = normalize(ray.direction - level * dot(ray.direction, u_up) * u_up);
     vec3 bent = refract(ray.direction, -outward, u_refractive_index);
     bool mirrors = dot(bent, bent) < 0.5;
     inside = inside && to_wall < to_floor;
     if (inside) ray.direction = mirrors ? reflect(ray.direction, outward) : bent;
     inside = inside && mirrors;
-    off_bottom = inside && dot(outward, u_up) < -0.5;
+    off_bottom = inside && (off_bottom || dot(outward, u_up) < -0.5);
   }
 }
 
@@ -174,6 +178,37 @@ vec3 back_normal(ivec2 pixel, float depth) {
   return normalize(cross(right, up) + vec3(0.0, 0.0, 1e-9 * u_radius * u_radius));
 }
 
+// How far before the far side of the fluid a point is [m].
+float before_back(vec3 point) {
+  return point.z - back_at(ivec2(floor(pixel_of(point))), -point.z).z;
+}
+
+// How far a ray from a point goes to the first far side that it meets, `most` where it is still
+// before one there. The far side that is seen straight on may be another one's; beyond the outline
+// the ray has left the fluid by a side.
+float way_to_back(vec3 p, vec3 into, float most) {
+  float at_most = before_back(p + most * into);
+  if (at_most > 0.0) return most;
+  float from = 0.0, to = 0.0;
+  float at_from = 1.0, at_to = 1.0;
+  for (int k = 1; k <= BACK_STEPS && at_to > 0.0; ++k) {
+    from = to;
+    at_from = at_to;
+    to = most * float(k) / float(BACK_STEPS);
+    at_to = k < BACK_STEPS ? before_back(p + to * into) : at_most;
+  }
+  for (int k = 0; k < 3; ++k) {
+    float middle = 0.5 * (from + to);
+    float at_middle = before_back(p + middle * into);
+    bool is_in = at_middle > 0.0;
+    from = is_in ? middle : from;
+    at_from = is_in ? at_middle : at_from;
+    to = is_in ? to : middle;
+    at_to = is_in ? at_to : at_middle;
+  }
+  return mix(from, to, at_from / (at_from - at_to));
+}
+
 // Out of the fluid through a surface whose normal is against the ray. Where it comes too flat for
 // that, what the surface mirrors is not known: it leaves along the surface, as do rays just steep
 // enough.
@@ -182,6 +217,11 @@ vec3 out_of(vec3 direction, vec3 n) {
   vec3 along = u_refractive_index * (direction + c * n);
   along *= 0.99 / max(length(along), 0.99);
   return along - sqrt(1.0 - dot(along, along)) * n;
+}
+
+// The way through a drop [m].
+float chord_of_drop(vec3 view, vec3 n) {
+  return 2.0 * u_drop_radius * clamp(-dot(view, n), 0.0, 1.0);
 }
 
 // The ray from a point of the surface (eye space) to what is seen through the fluid.
@@ -195,18 +235,11 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   float to_end = min(distance_to_ground(position, once), distance_to_wall(position, once, outward));
   Ray bound = Ray(position, once, 0.0, once);
   follow_to_wall_or_floor(bound);
-  // Where the bent ray comes to the far side: what stands at the pixel of a guess is the next one.
-  // Beyond the outline it has left the fluid by a side.
   float deep = -back_at(ivec2(gl_FragCoord.xy), -p.z).z + p.z;
   float straight = max(deep, 0.0) / -view.z;
-  float way = straight;
-  ivec2 at;
-  for (int k = 0; k < 4; ++k) {
-    vec3 guess = p + way * into;
-    at = ivec2(floor(pixel_of(guess)));
-    float found = (back_at(at, -guess.z).z - p.z) / min(into.z, -0.1);
-    way = clamp(found, 0.0, 3.0 * straight);
-  }
+  float most = 1.5 * straight + 0.5 * u_radius;
+  float way = way_to_back(p, into, clamp(to_end - 0.5 * u_radius, 0.0, most));
+  ivec2 at = ivec2(floor(pixel_of(p + way * into)));
   vec3 through = to_world(out_of(into, back_normal(at, way - p.z)));
   // Fluid that reaches up to wall or floor has no far side of its own.
   float gap = to_end - way;
@@ -216,46 +249,57 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   vec3 twice = to_world(refract(view, n, eta * eta));
   float least = LEAST_WAY * u_radius;
   float filled = filling(thickness, straight, to_end);
-  // More fluid than there is room for: back_smooth has joined the far side to that of a drop, which
-  // is nearer than the surface here.
-  float known = 1.0 - smoothstep(1.5, 2.5, thickness / max(straight, least));
-  float solid = body * smoothstep(0.55, 0.9, filled) * known;
-  is_bound *= step(1.0, body) * smoothstep(0.35, 0.75, filled);
+  float solid = body * smoothstep(0.55, 0.9, filled);
+  // Beside an outline smoothing has taken away as much as a sprite's radius of fluid.
+  float full = filling(thickness + u_radius, straight, to_end);
+  is_bound *= step(1.0, body) * smoothstep(0.55, 0.9, full);
   solid = max(solid, is_bound);
-  float length = mix(thickness, way * thickness / max(straight, least), solid);
-  return Ray(mix(position + way * once, bound.at, is_bound),
+  float length = mix(thickness, way * min(thickness / max(straight, least), 1.0), solid);
+  float leaves = mix(chord_of_drop(view, n), way, body);
+  return Ray(mix(position + leaves * once, bound.at, is_bound),
              normalize(mix(mix(twice, through, solid), bound.direction, is_bound)),
              mix(length, bound.way * min(filled, 1.0), is_bound),
              normalize(mix(twice, once, solid)));
 }
 
 #ifdef MESHES
-// How far a point of a ray from p lies behind the mesh that the picture shows there [m]. What
-// stands nearer than p is nothing that the ray can meet.
-float behind_mesh(vec3 p, vec3 point, out vec3 light) {
+// Where a point of a ray lies in the picture of the meshes.
+struct MeshPoint {
+  float depth;  // of the mesh there, NOWHERE without one [m]
+  vec3 light;
+};
+MeshPoint mesh_at(vec3 point) {
   ivec2 pixel = ivec2(clamp(pixel_of(point), vec2(0.0), u_size.xy - 1.0));
   float a = texelFetch(u_mesh_depth, pixel, 0).r;
-  light = texelFetch(u_mesh_light, pixel, 0).rgb;
-  return is_surface(a) && depth_of(a) > -p.z ? -point.z - depth_of(a) : -NOWHERE;
+  return MeshPoint(is_surface(a) ? depth_of(a) : NOWHERE,
+                   texelFetch(u_mesh_light, pixel, 0).rgb);
 }
 
 // Where a ray from a point in eye space meets a mesh, as far as the picture knows: with the first
-// step that leads behind one, and not far behind; then twice nearer.
+// step that leads behind one, and not far behind; then twice nearer. What stands far before the ray
+// only hides what the ray may meet: the mesh beside it goes on behind it.
 bool meets_mesh(vec3 p, vec3 direction, float farthest, out float way, out vec3 light) {
   float span = farthest / float(MESH_STEPS);
   float ahead = max(-direction.z, 0.01);
+  float thick = 2.0 * span * ahead;
   bool meets = false;
+  MeshPoint last = MeshPoint(NOWHERE, vec3(0.0));
   way = 0.0;
   for (int k = 0; k < MESH_STEPS && !meets; ++k) {
     way += span;
-    float behind = behind_mesh(p, p + way * direction, light);
-    meets = behind >= 0.0 && behind < 2.0 * span * ahead;
+    vec3 point = p + way * direction;
+    MeshPoint mesh = mesh_at(point);
+    bool hides = mesh.depth <= -p.z || mesh.depth <= -point.z - thick;
+    if (!hides) last = mesh;
+    meets = last.depth <= -point.z && last.depth > -point.z - thick;
   }
+  light = last.light;
   for (int k = 0; k < 2; ++k) {
-    vec3 nearer_light;
-    float behind = behind_mesh(p, p + way * direction, nearer_light);
-    bool is_nearer = abs(behind) < 2.0 * span * ahead;
-    light = is_nearer ? nearer_light : light;
+    vec3 point = p + way * direction;
+    MeshPoint mesh = mesh_at(point);
+    float behind = -point.z - mesh.depth;
+    bool is_nearer = abs(behind) < thick && mesh.depth > -p.z;
+    light = is_nearer ? mesh.light : light;
     way -= is_nearer ? behind / ahead : 0.0;
   }
   return meets;
@@ -300,17 +344,13 @@ vec3 normal_behind(ivec2 pixel, float depth) {
   return 0.25 * sum;
 }
 
-// The way through a drop [m].
-float chord_of_drop(vec3 view, vec3 n) {
-  return 2.0 * u_drop_radius * clamp(-dot(view, n), 0.0, 1.0);
-}
-
 // What the surface behind a drop adds to the drop: as far as the drop lets light through it
 // mirrors, and below it the ray goes on more steeply.
 struct Behind {
   vec3 mirrored;   // share of its light that the surface mirrors
   vec3 direction;  // where that comes from
   float way;       // through the fluid behind, over that straight on
+  float meets;     // how far what the drop mirrors is that surface, and not what is beyond
 };
 
 Behind behind_drop(vec3 view, vec3 n, vec3 hidden, float body) {
@@ -320,7 +360,24 @@ Behind behind_drop(vec3 view, vec3 n, vec3 hidden, float body) {
   float c = clamp(-dot(view, normal), 0.0, 1.0);
   float bent = sqrt(1.0 - (1.0 - c * c) / (u_refractive_index * u_refractive_index));
   return Behind(share * fresnel(c, u_refractive_index) * transmittance(chord_of_drop(view, n)),
-                reflect(view, normal), mix(1.0, c / max(bent, 1e-6), share));
+                reflect(view, normal), mix(1.0, c / max(bent, 1e-6), share),
+                body < 1.0 ? known2 * smoothstep(0.0, 0.3, -dot(reflect(view, n), normal)) : 0.0);
+}
+
+// How far rays that are a pixel apart are from one another [pixels] where the surface has mirrored
+// them: twice as far as its normals turn from pixel to pixel. Across an edge the side that turns
+// less is the surface's own.
+float mirrored_spread(ivec2 pixel) {
+  ivec2 last = ivec2(u_size.xy) - 1;
+  vec3 n = texelFetch(u_normal, pixel, 0).xyz;
+  float turn2 = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    ivec2 axis = k == 0 ? ivec2(1, 0) : ivec2(0, 1);
+    vec3 next = texelFetch(u_normal, min(pixel + axis, last), 0).xyz - n;
+    vec3 previous = texelFetch(u_normal, max(pixel - axis, 0), 0).xyz - n;
+    turn2 += min(dot(next, next), dot(previous, previous));
+  }
+  return 2.0 * sqrt(0.5 * turn2) * pixels_per_radian();
 }
 
 // @param to_mesh  length of the straight way to a mesh [m]
@@ -336,7 +393,8 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   // A drop turns rays that are a pixel apart by a pixel's share of its radius.
   float of_drop = pixels_per_radian() / (u_drop_radius * pixels_per_meter(-p.z));
   float spread = mix(max(of_drop, SPREAD), SPREAD, body);
-  vec3 reflection = environment(MIRRORED(mirror, spread), position, mirror, -p.z, spread).rgb;
+  float wide = max(spread, mirrored_spread(ivec2(gl_FragCoord.xy)));
+  vec3 reflection = environment(MIRRORED(mirror, wide), position, mirror, -p.z, wide).rgb;
   Ray ray = refracted(p, view, n, thickness, body);
   vec4 behind = environment(BACKDROP(ray.direction, spread), ray.at, ray.direction, -p.z, spread);
 #ifdef MESHES
@@ -356,6 +414,8 @@ Shade fluid(vec3 p, vec3 view, vec3 n, float thickness, float to_mesh, float bod
   float lit = 0.60 + 0.25 * dot(up_facing, u_up) + 0.35 * dot(up_facing, u_sun);
   vec3 through = behind.rgb * left + body_color() * lit * (1.0 - left);
   through = mix(through, MIRRORED(to_world(also.direction), SPREAD).rgb, also.mirrored);
+  // At its rim a drop mirrors what it hides: the same as is seen through it.
+  mirrored *= 1.0 - also.meets;
   vec3 clear = (1.0 - mirrored) * (1.0 - also.mirrored) * (1.0 - behind.a) * left;
   return Shade(mix(through, reflection, mirrored), clear);
 }

@@ -56,13 +56,22 @@ vec4 sky(vec3 direction, float spread) {
   return vec4(color + SUN * (0.25 * glow8), 1.0);
 }
 
+// exp(-k off), a light about the sun of variance 1/k, seen by rays of a variance of their own: the
+// light is wider by that, and as much less bright as it is larger.
+float lobe(float k, float off, float variance) {
+  float sharpness = 1.0 / (1.0 + k * variance);
+  return sharpness * exp(-off * k * sharpness);
+}
+
 // Lights that only mirrors show: the sun's disc, softened, and a bright band of sky all around,
 // which draws waves as a studio's soft boxes draw glass.
 vec4 sky_with_lights(vec3 direction, float spread) {
+  float wide = spread / pixels_per_radian();
+  float variance = wide * wide / 12.0;  // of a pixel's square, along each side
   float off = 1.0 - dot(direction, u_sun);
   float elevation = dot(direction, u_up);
   float band = smoothstep(0.02, 0.45, elevation) * (1.0 - 0.6 * smoothstep(0.5, 0.9, elevation));
-  vec3 sun = SUN * (60.0 * exp(-off * 700.0) + 5.0 * exp(-off * 40.0));
+  vec3 sun = SUN * (60.0 * lobe(700.0, off, variance) + 5.0 * lobe(40.0, off, variance));
   return sky(direction, spread) + vec4(sun + vec3(1.1, 1.25, 1.4) * 1.6 * band, 0.0);
 }
 

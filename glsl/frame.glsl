@@ -43,6 +43,8 @@ float with_crowding(float a, float crowding) {
   return uintBitsToFloat((floatBitsToUint(a) & ~3u) | level);
 }
 float crowding_of(float a) { return 1.0 - float(floatBitsToUint(a) & 3u) / 3.0; }
+// A drop alone, 3 in those bits.
+bool is_alone(float crowding) { return 3.5 - 3.0 * crowding >= 3.0; }
 
 // How far depth is smoothed there, over a body. A drop is round already; where a few particles have
 // met, a kernel as wide as their sprites would leave a flat disc of each, and a ninth joins them.

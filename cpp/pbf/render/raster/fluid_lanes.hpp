@@ -47,16 +47,12 @@ normal_behind(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes
   return Lanes(0.25F) * sum;
 }
 
-/// The way through a drop [m].
-PBF_INLINE Lanes chord_of_drop(const FluidTerms& terms, const Vec3Lanes& view, const Vec3Lanes& n) {
-  return Lanes(2 * terms.drop_radius) * clamp(-dot(view, n), 0.0F, 1.0F);
-}
-
 /// What the surface behind a drop adds to the drop.
 struct Behind {
   Vec3Lanes mirrored;   // share of its light that the surface mirrors
   Vec3Lanes direction;  // where that comes from
   Lanes way;            // through the fluid behind, over that straight on
+  Lanes meets;          // how far what the drop mirrors is that surface
 };
 
 PBF_INLINE Behind behind_drop(const FluidTerms& terms,
@@ -70,8 +66,27 @@ PBF_INLINE Behind behind_drop(const FluidTerms& terms,
   const Lanes c = clamp(-dot(view, normal), 0.0F, 1.0F);
   const Lanes bent = sqrt(Lanes(1) - (Lanes(1) - c * c) * Lanes(1 / (index * index)));
   const Vec3Lanes passes = exp(-chord_of_drop(terms, view, n) * lanes(terms.absorption));
+  const Lanes onto = -dot(reflect(view, n), normal);
   return {(share * fresnel(c, index)) * passes, reflect(view, normal),
-          mix(1.0F, c / max(bent, 1e-6F), share)};
+          mix(1.0F, c / max(bent, 1e-6F), share),
+          select(body < Lanes(1), known2 * smoothstep(0.0F, 0.3F, onto), 0.0F)};
+}
+
+/// How far rays that are a pixel apart are from one another [pixels] where the surface has mirrored
+/// them.
+PBF_INLINE Lanes mirrored_spread(const Scene& scene, const FluidTerms& terms, int x, int y) {
+  const int above = y + 1 < terms.depth.height ? y + 1 : y, below = y > 0 ? y - 1 : y;
+  const Ints column = lane_numbers() + x;
+  const Mask at_left = {column <= 0}, at_right = {column >= terms.depth.width - 1};
+  const Vec3Lanes n = load_at(terms.normal, x, y);
+  const auto turn2 = [&](int to_x, int to_y) PBF_LAMBDA_INLINE {
+    const Vec3Lanes turn = load_at(terms.normal, to_x, to_y) - n;
+    return dot(turn, turn);
+  };
+  const Lanes next = select(at_right, 0.0F, turn2(x + 1, y));
+  const Lanes previous = select(at_left, 0.0F, turn2(x - 1, y));
+  const Lanes sum = min(next, previous) + min(turn2(x, above), turn2(x, below));
+  return sqrt(Lanes(0.5F) * sum) * Lanes(2 * pixels_per_radian(scene.frame));
 }
 
 PBF_INLINE Vec3Lanes upright_at_floor(const Scene& scene,
@@ -137,15 +152,16 @@ PBF_INLINE Shade fluid(const Scene& scene,
   const Lanes depth = -at.p.z;
   const Vec3Lanes position = lanes(e.eye) + to_world(frame, at.p);
   const Vec3Lanes n = upright_at_floor(scene, terms, at.n, position);
-  const Lanes mirrored = fresnel(clamp(-dot(view, n), 0.0F, 1.0F), terms.refractive_index) *
-                         Lanes(terms.has_tint ? 0.3F : 1.0F);
+  Lanes mirrored = fresnel(clamp(-dot(view, n), 0.0F, 1.0F), terms.refractive_index) *
+                   Lanes(terms.has_tint ? 0.3F : 1.0F);
   const Vec3Lanes mirror = to_world(frame, reflect(view, n));
   // A drop turns rays that are a pixel apart by a pixel's share of its radius.
   const Lanes of_drop =
       Lanes(pixels_per_radian(frame) / terms.drop_radius) * pixel_at(frame, depth);
   const Lanes spread = mix(max(of_drop, kSpread), kSpread, at.body);
+  const Lanes wide = max(spread, mirrored_spread(scene, terms, x, y));
   const Vec3Lanes reflection =
-      environment(scene, e.mirrored, position, mirror, depth, spread, at.wanted).rgb;
+      environment(scene, e.mirrored, position, mirror, depth, wide, at.wanted).rgb;
   Refracted bent =
       refracted(scene, terms, column, row, at.p, view, n, at.thickness, at.body, at.wanted);
   RgbaLanes behind =
@@ -158,7 +174,7 @@ PBF_INLINE Shade fluid(const Scene& scene,
     behind = select(hit.meets, RgbaLanes{hit.light, 1.0F}, behind);
     bent.ray.way = select(hit.meets, min(bent.ray.way, hit.way), bent.ray.way);
   }
-  Behind also = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}, 1.0F};
+  Behind also = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}, 1.0F, 0.0F};
   if (any((at.body < Lanes(1)) & at.wanted)) {
     const Vec3Lanes hidden = normal_behind(scene, terms, column, row, depth);
     also = behind_drop(terms, view, n, hidden, at.body);
@@ -171,6 +187,8 @@ PBF_INLINE Shade fluid(const Scene& scene,
                     Lanes(0.35F) * dot(up_facing, lanes(e.sun));
   const Vec3Lanes one{1.0F, 1.0F, 1.0F};
   Vec3Lanes through = behind.rgb * left + (lit * body_color(terms, pixel)) * (one - left);
+  // At its rim a drop mirrors what it hides: the same as is seen through it.
+  mirrored *= Lanes(1) - also.meets;
   Vec3Lanes passes = ((Lanes(1) - mirrored) * (Lanes(1) - behind.a)) * (one - also.mirrored);
   const Vec3Lanes& share = also.mirrored;
   if (any((max(share.x, max(share.y, share.z)) > Lanes(0.0F)) & at.wanted)) {

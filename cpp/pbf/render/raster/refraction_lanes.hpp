@@ -7,6 +7,7 @@ namespace pbf::PBF_ISA_NAMESPACE {
 
 // In the fluid; shorter ones count as this [sprites' radii].
 inline constexpr float kLeastWay = 1e-4F;
+inline constexpr int kBounces = 3;  // of a ray in a tank: as many as a corner has walls
 
 PBF_INLINE Lanes fresnel(Lanes c, float index) {
   const Lanes g = sqrt(max(Lanes(index * index - 1) + c * c, 1e-6F));
@@ -42,7 +43,8 @@ PBF_INLINE Lanes inside_fluid(const Scene& scene,
   const Lanes behind = -at.z - depth_of(frame, front);
   const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
   const Lanes length = behind + before;
-  const Lanes filled = filling(terms, fetch(terms.thickness, x, y), length, length);
+  const Lanes thickness = fetch(terms.thickness, x, y) + Lanes(terms.radius);
+  const Lanes filled = filling(terms, thickness, length, length);
   const Lanes inside =
       min(min(behind, before) * Lanes(1 / terms.radius) + Lanes(1), Lanes(2) * filled - Lanes(1));
   const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
@@ -85,7 +87,7 @@ PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& te
   const float index = terms.refractive_index;
   const Lanes zero = 0.0F;
   Mask inside = zero <= zero, off_bottom = zero < zero;
-  for (int k = 0; k < 2 && any(inside); ++k) {
+  for (int k = 0; k < kBounces && any(inside); ++k) {
     const Lanes to_floor = distance_to_ground(e, terms, ray.at, ray.direction);
     const Wall wall = nearest_wall(e, terms, ray.at, ray.direction);
     const Lanes to_end = min(to_floor, wall.way);
@@ -94,9 +96,9 @@ PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& te
     ray.way += select(off_bottom, way, to_surface);
     ray.at += way * ray.direction;
     if (any(off_bottom)) {
-      const Lanes half = Lanes(0.5F) * floor(way / max(to_surface, kLeastWay * terms.radius));
-      const Mask comes_down = off_bottom & (half - floor(half) > Lanes(0.25F));
-      ray.direction += select(comes_down, Lanes(-2) * dot(ray.direction, up), zero) * up;
+      const Lanes steep = min(to_surface / max(way, kLeastWay * terms.radius), 1.0F);
+      const Lanes level = select(off_bottom, Lanes(1) - steep * steep, zero);
+      ray.direction = normalize(ray.direction - (level * dot(ray.direction, up)) * up);
     }
     const Vec3Lanes bent = refract(ray.direction, -wall.outward, index);
     const Mask mirrors = dot(bent, bent) < Lanes(0.5F);
@@ -104,7 +106,7 @@ PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& te
     const Vec3Lanes on = select(mirrors, reflect(ray.direction, wall.outward), bent);
     ray.direction = select(inside, on, ray.direction);
     inside = inside & mirrors;
-    off_bottom = inside & (dot(wall.outward, up) < Lanes(-0.5F));
+    off_bottom = inside & (off_bottom | (dot(wall.outward, up) < Lanes(-0.5F)));
   }
 }
 
@@ -140,11 +142,58 @@ back_normal(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes d
   return normalize(Vec3Lanes{n.x, n.y, n.z + Lanes(1e-9F * terms.radius * terms.radius)});
 }
 
+/// How far rays from points go to the first far side that they meet, `most` if not so far.
+PBF_INLINE Lanes way_to_back(const Scene& scene,
+                             const FluidTerms& terms,
+                             const Vec3Lanes& p,
+                             const Vec3Lanes& into,
+                             Lanes most,
+                             Mask wanted) {
+  constexpr int kSteps = 6;
+  const FrameTerms& frame = scene.frame;
+  const Lanes zero = 0.0F;
+  const auto before_back = [&](Lanes way) PBF_LAMBDA_INLINE {
+    const Vec3Lanes point = p + way * into;
+    const PixelLanes at = pixel_of(frame, point);
+    const Ints x = to_ints(clamp(at.x, 0.0F, frame.width - 1));
+    const Ints y = to_ints(clamp(at.y, 0.0F, frame.height - 1));
+    return point.z - back_at(scene, terms, x, y, -point.z).z;
+  };
+  if (!any(wanted)) return most;
+  const Lanes at_most = before_back(most);
+  const Mask leaves = ~(at_most > zero);
+  Mask on = leaves & wanted;
+  if (!any(on)) return most;
+  Lanes from = zero, to = zero, at_from = 1.0F, at_to = 1.0F;
+  for (int k = 1; k <= kSteps && any(on); ++k) {
+    from = select(on, to, from);
+    at_from = select(on, at_to, at_from);
+    to = select(on, most * Lanes(static_cast<float>(k) / kSteps), to);
+    at_to = select(on, k < kSteps ? before_back(to) : at_most, at_to);
+    on = on & (at_to > zero);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Lanes middle = Lanes(0.5F) * (from + to);
+    const Lanes at_middle = before_back(middle);
+    const Mask is_in = at_middle > zero;
+    from = select(is_in, middle, from);
+    at_from = select(is_in, at_middle, at_from);
+    to = select(is_in, to, middle);
+    at_to = select(is_in, at_to, at_middle);
+  }
+  return select(leaves, mix(from, to, at_from / max(at_from - at_to, 1e-20F)), most);
+}
+
 PBF_INLINE Vec3Lanes out_of(const Vec3Lanes& direction, const Vec3Lanes& n, float index) {
   const Lanes c = clamp(-dot(direction, n), 0.0F, 1.0F);
   Vec3Lanes along = Lanes(index) * (direction + c * n);
   along = (Lanes(0.99F) / max(sqrt(dot(along, along)), 0.99F)) * along;
   return along - sqrt(max(Lanes(1) - dot(along, along), 0.0F)) * n;
+}
+
+/// The way through a drop [m].
+PBF_INLINE Lanes chord_of_drop(const FluidTerms& terms, const Vec3Lanes& view, const Vec3Lanes& n) {
+  return Lanes(2 * terms.drop_radius) * clamp(-dot(view, n), 0.0F, 1.0F);
 }
 
 /// The ray from a point of the surface to what is seen through the fluid, and its direction behind
@@ -175,32 +224,29 @@ PBF_INLINE Refracted refracted(const Scene& scene,
       min(distance_to_ground(e, terms, position, once), nearest_wall(e, terms, position, once).way);
   const Lanes deep = p.z - back_at(scene, terms, x, y, -p.z).z;
   const Lanes straight = max(deep, 0.0F) / -view.z;
-  Lanes way = straight;
-  for (int k = 0; k < 4; ++k) {
-    const Vec3Lanes guess = p + way * into;
-    const PixelLanes at = pixel_of(frame, guess);
-    x = to_ints(floor(clamp(at.x, -1.0F, frame.width)));
-    y = to_ints(floor(clamp(at.y, -1.0F, frame.height)));
-    const Lanes found = (back_at(scene, terms, x, y, -guess.z).z - p.z) / min(into.z, -0.1F);
-    way = clamp(found, 0.0F, Lanes(3) * straight);
-  }
+  const Mask may_be_solid = wanted & (body > Lanes(0.0F));
+  const Lanes half_radius = 0.5F * terms.radius;
+  const Lanes most = clamp(to_end - half_radius, 0.0F, Lanes(1.5F) * straight + half_radius);
+  const Lanes way = way_to_back(scene, terms, p, into, most, may_be_solid);
   const Lanes gap = to_end - way;
   const Lanes least = kLeastWay * terms.radius;
   const Lanes filled = filling(terms, thickness, straight, to_end);
+  const Lanes full = filling(terms, thickness + Lanes(terms.radius), straight, to_end);
   const Lanes is_bound = (Lanes(1) - smoothstep(0.5F * terms.radius, 3 * terms.radius, gap)) *
-                         select(Lanes(1) <= body, smoothstep(0.35F, 0.75F, filled), 0.0F);
-  // More fluid than there is room for: back_smooth has joined the far side to that of a drop, which
-  // is nearer than the surface here.
-  const Lanes known = Lanes(1) - smoothstep(1.5F, 2.5F, thickness / max(straight, least));
-  const Lanes solid = max(body * smoothstep(0.55F, 0.9F, filled) * known, is_bound);
+                         select(Lanes(1) <= body, smoothstep(0.55F, 0.9F, full), 0.0F);
+  const Lanes solid = max(body * smoothstep(0.55F, 0.9F, filled), is_bound);
   const Vec3Lanes twice = to_world(frame, refract(view, n, eta * eta));
   Vec3Lanes direction = twice;
   if (any((solid > Lanes(0.0F)) & (is_bound < Lanes(1)) & wanted)) {
+    const PixelLanes at = pixel_of(frame, p + way * into);
+    x = to_ints(floor(clamp(at.x, -1.0F, frame.width)));
+    y = to_ints(floor(clamp(at.y, -1.0F, frame.height)));
     const Vec3Lanes far_side = back_normal(scene, terms, x, y, way - p.z);
     direction = mix(twice, to_world(frame, out_of(into, far_side, index)), solid);
   }
-  const Lanes length = mix(thickness, way * thickness / max(straight, least), solid);
-  Ray ray{position + way * once, direction, length};
+  const Lanes length = mix(thickness, way * min(thickness / max(straight, least), 1.0F), solid);
+  const Lanes leaves = mix(chord_of_drop(terms, view, n), way, body);
+  Ray ray{position + leaves * once, direction, length};
   if (any((is_bound > Lanes(0.0F)) & wanted)) {
     Ray bound{position, once, 0.0F};
     follow_to_wall_or_floor(scene, terms, bound);

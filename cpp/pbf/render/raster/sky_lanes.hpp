@@ -33,13 +33,19 @@ PBF_INLINE Vec3Lanes sky(const Scene& scene, const Vec3Lanes& direction) {
   return color + (Lanes(0.25F) * glow4 * glow4) * sunshine();
 }
 
-PBF_INLINE Vec3Lanes sky_with_lights(const Scene& scene, const Vec3Lanes& direction) {
+PBF_INLINE Vec3Lanes sky_with_lights(const Scene& scene, const Vec3Lanes& direction, Lanes spread) {
   const Environment& e = scene.environment;
+  const Lanes wide = spread * Lanes(1 / pixels_per_radian(scene.frame));
+  const Lanes variance = wide * wide * Lanes(1.0F / 12);  // of a pixel's square, along each side
+  const auto lobe = [&](float k, Lanes off) PBF_LAMBDA_INLINE {
+    const Lanes sharpness = Lanes(1) / (Lanes(1) + Lanes(k) * variance);
+    return sharpness * exp(off * Lanes(-k) * sharpness);
+  };
   const Lanes off = Lanes(1) - dot(direction, lanes(e.sun));
   const Lanes elevation = dot(direction, lanes(e.up));
   const Lanes band = smoothstep(0.02F, 0.45F, elevation) *
                      (Lanes(1) - Lanes(0.6F) * smoothstep(0.5F, 0.9F, elevation));
-  const Lanes disc = Lanes(60) * exp(off * Lanes(-700)) + Lanes(5) * exp(off * Lanes(-40));
+  const Lanes disc = Lanes(60) * lobe(700, off) + Lanes(5) * lobe(40, off);
   return sky(scene, direction) + disc * sunshine() +
          (Lanes(1.6F) * band) * Vec3Lanes{1.1F, 1.25F, 1.4F};
 }
@@ -109,7 +115,7 @@ PBF_INLINE RgbaLanes light_from(const Scene& scene,
     case Environment::Light::mapped:
       return {mapped(scene, direction, spread), 1.0F};
     case Environment::Light::sky_with_lights:
-      return {sky_with_lights(scene, direction), 1.0F};
+      return {sky_with_lights(scene, direction, spread), 1.0F};
     case Environment::Light::sky:
       break;
   }
