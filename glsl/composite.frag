@@ -100,7 +100,7 @@ float inside_fluid(Ray ray, float way) {
   float behind = -at.z - depth_of(front);
   float before = depth_of(texelFetch(u_back, pixel, 0).r) + at.z;
   float length = behind + before;
-  float filled = filling(texelFetch(u_thickness, pixel, 0).r + u_radius, length, length);
+  float filled = filling(texelFetch(u_thickness, pixel, 0).r, length, length);
   float inside = min(min(behind, before) / u_radius + 1.0, 2.0 * filled - 1.0);
   bool is_fluid = is_surface(front) && at.z < 0.0;
   return is_fluid ? clamp(inside, -1.0, 1.0) : -1.0;
@@ -255,10 +255,14 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   is_bound *= step(1.0, body) * smoothstep(0.55, 0.9, full);
   solid = max(solid, is_bound);
   float length = mix(thickness, way * min(thickness / max(straight, least), 1.0), solid);
+  // Beyond a mirroring wall fluid goes on as far as it is sure to fill what is before the wall.
+  float to_bound = min(to_end, bound.way);
+  float goes_on = smoothstep(0.45, 0.7, filled);
+  float bound_length = to_bound * min(full, 1.0) + (bound.way - to_bound) * goes_on;
   float leaves = mix(chord_of_drop(view, n), way, body);
   return Ray(mix(position + leaves * once, bound.at, is_bound),
              normalize(mix(mix(twice, through, solid), bound.direction, is_bound)),
-             mix(length, bound.way * min(filled, 1.0), is_bound),
+             mix(length, bound_length, is_bound),
              normalize(mix(twice, once, solid)));
 }
 

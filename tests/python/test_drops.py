@@ -60,3 +60,26 @@ def test_through_an_opaque_drop_nothing_is_seen_of_what_it_hides(renderer):
     column = round(80 + 3.6 * D * 120 / (12 * D))
     seen = slice(58, 62), slice(column - 2, column + 2)
     assert np.abs(before[seen] - alone[seen]).max() <= 2
+
+
+def test_the_rim_of_a_drop_mirrors_the_body_behind_it(renderer):
+    # Opaque fluid under a blue light: where the mirrored ray goes on by more than 0.3 against the
+    # body, the drop has nothing but the fluid's own color.
+    look = pbf.RenderParams(
+        **WATER,
+        absorption=(4000, 4000, 4000),
+        scatter=(0.8, 0.2, 0.1),
+        floor=False,
+        reflection="plain",
+        background="plain",
+        background_color=(0, 0, 1),
+        tone_mapping="none",
+    )
+    body = pbf.block((-0.3, -0.3, -0.3), (0.3, 0.3, -0.1), spacing=D)
+    camera = pbf.Camera(eye=(0, 0, 2), target=(0, 0, 0), orthographic=True, height=6 * D)
+    image = renderer.render(np.concatenate([body, [(0, 0, D)]]), camera, look) / 255
+    light = np.where(image <= 0.04045, image / 12.92, ((image + 0.055) / 1.055) ** 2.4)
+    sine = (np.arange(80, 160) - 79.5) * 6 * D / 120 / WATER["drop_radius"]
+    rim = light[60, 80:][(sine > 0.82) & (sine < 0.97)]
+    assert rim[:, 2] == pytest.approx(rim[:, 0] / 8, abs=0.006)
+    assert rim[:, 0].min() > 0.2

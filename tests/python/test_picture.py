@@ -187,6 +187,38 @@ def test_through_a_drop_the_mirror_of_the_pool_behind_it_is_seen(renderer):
     assert image[59:61, 79:81].mean() == pytest.approx(drop + (1 - drop) * behind, abs=0.02)
 
 
+@pytest.mark.parametrize("pixels", [5, 10, 20])
+def test_the_suns_image_on_a_sphere_is_its_mean_over_the_pixel(renderer, pixels):
+    # Less than a pixel wide, it would be a white speck or nothing by where its middle lies.
+    radius, sun = 0.05, np.array([0.3, 0.4, 1])
+    black = pbf.RenderParams(
+        radius=radius,
+        smoothing_iterations=0,
+        background="plain",
+        background_color=(0, 0, 0),
+        reflection="sky",
+        floor=False,
+        absorption=(1e4, 1e4, 1e4),
+        scatter=(0, 0, 0),
+        tone_mapping="none",
+        exposure=0.5,
+        sun_direction=sun,
+    )
+    half = sun / np.linalg.norm(sun) + [0, 0, 1]
+    place = radius * half[:2] / np.linalg.norm(half)
+
+    def light(at, height):
+        eye, target = (*at, 3), (*at, 0)
+        camera = pbf.Camera(eye=eye, target=target, orthographic=True, height=height)
+        return linear(renderer.render([[0, 0, 0]], camera, black))[..., 0]
+
+    size = radius / pixels
+    for shift in [(0, 0), (0.5, 0), (0, 0.5), (0.5, 0.5)]:
+        at = place + size * np.array(shift)
+        fine = light(at, 10 * size)[:, 20:140].reshape(10, 12, 10, 12).mean(axis=(1, 3))
+        assert np.abs(light(at, 120 * size)[58:62, 78:82] - fine[3:7, 3:7]).max() < 0.06
+
+
 @pytest.mark.parametrize(
     ("fields", "match"),
     [

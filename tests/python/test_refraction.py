@@ -45,9 +45,9 @@ def renderer(request):
         yield made
 
 
-def seen(renderer, positions):
+def seen(renderer, positions, camera=CAMERA, look=CLEAR):
     """Where each pixel's ray came from, and what Fresnel took is given back."""
-    v = renderer.render(positions, CAMERA, CLEAR)[..., :3] / 255
+    v = renderer.render(positions, camera, look)[..., :3] / 255
     light = np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
     return light * 4
 
@@ -100,3 +100,28 @@ def test_a_ball_shows_what_is_behind_it_upside_down(renderer):
     column = through(light[119 - pixel, 58:62].mean(axis=1), mirrored)
     assert np.abs(row[:, 0] - expected).max() < 0.12
     assert np.abs(column[:, 1] - expected).max() < 0.12
+
+
+def test_a_drop_behind_a_body_is_no_far_side_of_it(renderer):
+    water = CLEAR.replace(radius=0.024, drop_radius=0.0124)
+    drops = [(x, y, -0.4) for x in (-0.05, 0.0, 0.05) for y in (-0.03, 0.03)]
+    alone = renderer.render(BLOCK, CAMERA, water)
+    before_drops = renderer.render(np.concatenate([BLOCK, drops]), CAMERA, water)
+    assert np.array_equal(before_drops, alone)
+
+
+def test_up_to_the_far_edge_of_a_pool_light_comes_through_the_wall(renderer):
+    # 15 degrees above the pool: down through the level surface, then out through the far wall.
+    pool = pbf.block((-0.6, -0.3, -0.4), (0.6, 0.0, 0.4), spacing=0.02)
+    down = np.radians(15)
+    eye = (0, 2 * np.sin(down), 2 * np.cos(down))
+    camera = pbf.Camera(eye=eye, target=(0, 0, 0), orthographic=True, height=0.4)
+    look = CLEAR.replace(
+        radius=0.024, drop_radius=0.0124, tank_lower=(-0.6, -0.3, -0.4), tank_upper=(0.6, 0.5, 0.4)
+    )
+    # From the far edge to where rays come to the bottom first.
+    rows = slice(*(int(60 - 120 * z * np.sin(down) / 0.4) for z in (0.4, 0.12)))
+    light = seen(renderer, pool, camera, look)[rows, 55:65].mean(axis=1)
+    into = np.sqrt(1 - (np.cos(down) / INDEX) ** 2)
+    expected = [0, -INDEX * into, -np.sqrt(1 - (INDEX * into) ** 2)]
+    assert np.abs(through(light, fresnel(np.sin(down))) - expected).max() < 0.04

@@ -147,6 +147,22 @@ def test_a_bent_ray_finds_the_mesh_where_snell_says(renderer):
     assert abs(straight - expected) > 6
 
 
+def test_what_a_mesh_hides_of_another_goes_on_behind_it(renderer):
+    # A plate stands in a pool with a gray bottom, before nothing: beside it rays bend down behind
+    # what hides the bottom from the camera.
+    pool = pbf.block((-1, -0.3, -1), (1, 0, 1), spacing=0.04)
+    camera = pbf.Camera(eye=(0, 1, 1), target=(0, 0, 0), fov_y=25)
+    bottom = pbf.Mesh(
+        [(-2, -0.3, -1.5), (-2, -0.3, 1.5), (2, -0.3, 1.5), (2, -0.3, -1.5)],
+        [(0, 1, 2), (0, 2, 3)],
+        (0.5, 0.5, 0.5),
+    )
+    plate = rectangle((-0.1, -0.25), (0.1, -0.05), 0, color=(0.9, 0.1, 0.1))
+    water = params(refractive_index=1.333, absorption=(0, 0, 0), background_color=(0, 0, 0))
+    light = linear(renderer.render(pool, camera, water, meshes=[bottom, plate]))[20:100, 40:120]
+    assert light[..., 0].min() > 0.9 * 0.5 * light_on((0, 1, 0), (1, 1, 1))[0]
+
+
 def test_from_inside_and_below_the_floor_meshes_are_not_seen(renderer):
     camera = pbf.Camera(**ALONG_Z)
     seen = rectangle((-0.4, -0.3), (0.5, 0.2), -2)

@@ -63,6 +63,23 @@ def test_a_bottom_over_air_mirrors_what_meets_it_flat(renderer, deep):
     assert np.abs(alpha[rows] - (1 - clear)).max() < 0.03
 
 
+def test_in_a_corner_light_goes_by_way_of_three_walls(renderer):
+    # Bottom and side mirror what comes in beside the corner, so that its way to the far wall is as
+    # long as anyone's.
+    absorption = 1.2
+    camera = from_above(15, 15, np.array([0.05, 0.05, 0.8]))
+    params = PLAIN.replace(
+        background="transparent", absorption=(absorption,) * 3, scatter=(0, 0, 0)
+    )
+    x = pbf.block((0, 0, 0), (0.8, 0.6, 0.8), spacing=SPACING)
+    alpha = renderer.render(x, camera, params)[..., 3] / 255
+    cosine = np.cos(np.radians(15)) ** 2
+    way = 0.8 / np.sqrt(1 - (1 - cosine**2) / INDEX**2)
+    clear = (1 - fresnel(cosine)) * np.exp(-absorption * way)
+    corner = alpha[105:125, 115:135]  # 0.02 to 0.07 m beside it, with an edge of the tank
+    assert np.quantile(np.abs(corner - (1 - clear)), 0.75) < 0.01
+
+
 def test_at_a_near_wall_the_surface_stays_level(renderer):
     camera = from_above(30, 0, np.array([0.4, 0.3, 0.8]))
     check_faces(renderer, camera, [(0, 1, 0), (0, 0, 1)], across=0)

@@ -43,8 +43,7 @@ PBF_INLINE Lanes inside_fluid(const Scene& scene,
   const Lanes behind = -at.z - depth_of(frame, front);
   const Lanes before = depth_of(frame, fetch(terms.back, x, y)) + at.z;
   const Lanes length = behind + before;
-  const Lanes thickness = fetch(terms.thickness, x, y) + Lanes(terms.radius);
-  const Lanes filled = filling(terms, thickness, length, length);
+  const Lanes filled = filling(terms, fetch(terms.thickness, x, y), length, length);
   const Lanes inside =
       min(min(behind, before) * Lanes(1 / terms.radius) + Lanes(1), Lanes(2) * filled - Lanes(1));
   const Mask is_fluid = is_surface(front) & (at.z < Lanes(0.0F));
@@ -252,7 +251,10 @@ PBF_INLINE Refracted refracted(const Scene& scene,
     follow_to_wall_or_floor(scene, terms, bound);
     ray.at = mix(ray.at, bound.at, is_bound);
     ray.direction = mix(ray.direction, bound.direction, is_bound);
-    ray.way = mix(ray.way, bound.way * min(filled, 1.0F), is_bound);
+    const Lanes to_bound = min(to_end, bound.way);
+    const Lanes goes_on = smoothstep(0.45F, 0.7F, filled);
+    const Lanes bound_length = to_bound * min(full, 1.0F) + (bound.way - to_bound) * goes_on;
+    ray.way = mix(ray.way, bound_length, is_bound);
   }
   ray.direction = normalize(ray.direction);
   return {ray, normalize(mix(twice, once, solid))};
