@@ -23,6 +23,7 @@ const float SPREAD = 3.0;       // of rays from a body's surface, in that of a p
 const float LEAST_WAY = 1e-4;   // in the fluid; shorter ones count as this [sprites' radii]
 const int MESH_STEPS = 24;      // of a ray that looks for a mesh
 const int EXIT_STEPS = 6;       // of one that looks for its way out of the fluid
+const float FARTHEST = 1.5;     // a bent ray's way to the far side, in that of the straight one
 const int BACK_STEPS = 6;       // of one that looks for the far side
 const int BOUNCES = 3;          // of a ray in a tank: as many as a corner has walls
 
@@ -237,7 +238,7 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   follow_to_wall_or_floor(bound);
   float deep = -back_at(ivec2(gl_FragCoord.xy), -p.z).z + p.z;
   float straight = max(deep, 0.0) / -view.z;
-  float most = 1.5 * straight + 0.5 * u_radius;
+  float most = FARTHEST * straight + 0.5 * u_radius;
   float way = way_to_back(p, into, clamp(to_end - 0.5 * u_radius, 0.0, most));
   ivec2 at = ivec2(floor(pixel_of(p + way * into)));
   vec3 through = to_world(out_of(into, back_normal(at, way - p.z)));
@@ -254,7 +255,8 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   float full = filling(thickness + u_radius, straight, to_end);
   is_bound *= step(1.0, body) * smoothstep(0.55, 0.9, full);
   solid = max(solid, is_bound);
-  float length = mix(thickness, way * min(thickness / max(straight, least), 1.0), solid);
+  float longer = min(way / max(straight, least), FARTHEST);
+  float length = mix(thickness, longer * thickness, solid);
   // Beyond a mirroring wall fluid goes on as far as it is sure to fill what is before the wall.
   float to_bound = min(to_end, bound.way);
   float goes_on = smoothstep(0.45, 0.7, filled);

@@ -7,6 +7,8 @@ namespace pbf::PBF_ISA_NAMESPACE {
 
 // In the fluid; shorter ones count as this [sprites' radii].
 inline constexpr float kLeastWay = 1e-4F;
+// A bent ray's way to the far side, in that of the straight one.
+inline constexpr float kFarthest = 1.5F;
 inline constexpr int kBounces = 3;  // of a ray in a tank: as many as a corner has walls
 
 PBF_INLINE Lanes fresnel(Lanes c, float index) {
@@ -225,7 +227,7 @@ PBF_INLINE Refracted refracted(const Scene& scene,
   const Lanes straight = max(deep, 0.0F) / -view.z;
   const Mask may_be_solid = wanted & (body > Lanes(0.0F));
   const Lanes half_radius = 0.5F * terms.radius;
-  const Lanes most = clamp(to_end - half_radius, 0.0F, Lanes(1.5F) * straight + half_radius);
+  const Lanes most = clamp(to_end - half_radius, 0.0F, Lanes(kFarthest) * straight + half_radius);
   const Lanes way = way_to_back(scene, terms, p, into, most, may_be_solid);
   const Lanes gap = to_end - way;
   const Lanes least = kLeastWay * terms.radius;
@@ -243,7 +245,8 @@ PBF_INLINE Refracted refracted(const Scene& scene,
     const Vec3Lanes far_side = back_normal(scene, terms, x, y, way - p.z);
     direction = mix(twice, to_world(frame, out_of(into, far_side, index)), solid);
   }
-  const Lanes length = mix(thickness, way * min(thickness / max(straight, least), 1.0F), solid);
+  const Lanes longer = min(way / max(straight, least), kFarthest);
+  const Lanes length = mix(thickness, longer * thickness, solid);
   const Lanes leaves = mix(chord_of_drop(terms, view, n), way, body);
   Ray ray{position + leaves * once, direction, length};
   if (any((is_bound > Lanes(0.0F)) & wanted)) {
