@@ -117,6 +117,9 @@ pbf_embed_glsl(pbf_render
   backdrop.frag
   opaque_meshes.vert
   opaque_meshes.frag
+  tank.glsl
+  refraction.glsl
+  meshes.glsl
   composite.frag
   resolve.frag
   color.glsl
