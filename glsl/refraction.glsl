@@ -134,11 +134,12 @@ float before_back(vec3 point) {
 // How far a ray from a point goes to the first far side that it meets, `most` where it is still
 // before one there. The far side that is seen straight on may be another one's; beyond the outline
 // the ray has left the fluid by a side.
-float way_to_back(vec3 p, vec3 into, float most) {
+// @param deep  how far before the far side it begins, more than 0 [m]
+float way_to_back(vec3 p, vec3 into, float most, float deep) {
   float at_most = before_back(p + most * into);
   if (at_most > 0.0) return most;
   float from = 0.0, to = 0.0;
-  float at_from = 1.0, at_to = 1.0;
+  float at_from = deep, at_to = deep;
   for (int k = 1; k <= BACK_STEPS && at_to > 0.0; ++k) {
     from = to;
     at_from = at_to;
@@ -185,8 +186,9 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   follow_to_wall_or_floor(bound);
   float deep = -back_at(ivec2(gl_FragCoord.xy), -p.z).z + p.z;
   float straight = max(deep, 0.0) / -view.z;
+  float least = LEAST_WAY * u_radius;
   float most = FARTHEST * straight + 0.5 * u_radius;
-  float way = way_to_back(p, into, clamp(to_end - 0.5 * u_radius, 0.0, most));
+  float way = way_to_back(p, into, clamp(to_end - 0.5 * u_radius, 0.0, most), max(deep, least));
   ivec2 at = ivec2(floor(pixel_of(p + way * into)));
   vec3 through = to_world(out_of(into, back_normal(at, way - p.z)));
   // Fluid that reaches up to wall or floor has no far side of its own.
@@ -195,7 +197,6 @@ Ray refracted(vec3 p, vec3 view, vec3 n, float thickness, float body) {
   // A drop's far side bends the ray once more by as much as the near one. So does a sheet, behind
   // which there is air before there is more.
   vec3 twice = to_world(refract(view, n, eta * eta));
-  float least = LEAST_WAY * u_radius;
   float filled = filling(thickness, straight, to_end);
   float solid = body * smoothstep(0.55, 0.9, filled);
   // Beside an outline smoothing has taken away as much as a sprite's radius of fluid.

@@ -144,11 +144,13 @@ back_normal(const Scene& scene, const FluidTerms& terms, Ints x, Ints y, Lanes d
 }
 
 /// How far rays from points go to the first far side that they meet, `most` if not so far.
+/// @param deep  how far before the far side they begin, more than 0 [m]
 PBF_INLINE Lanes way_to_back(const Scene& scene,
                              const FluidTerms& terms,
                              const Vec3Lanes& p,
                              const Vec3Lanes& into,
                              Lanes most,
+                             Lanes deep,
                              Mask wanted) {
   constexpr int kSteps = 6;
   const FrameTerms& frame = scene.frame;
@@ -165,7 +167,7 @@ PBF_INLINE Lanes way_to_back(const Scene& scene,
   const Mask leaves = ~(at_most > zero);
   Mask on = leaves & wanted;
   if (!any(on)) return most;
-  Lanes from = zero, to = zero, at_from = 1.0F, at_to = 1.0F;
+  Lanes from = zero, to = zero, at_from = deep, at_to = deep;
   for (int k = 1; k <= kSteps && any(on); ++k) {
     from = select(on, to, from);
     at_from = select(on, at_to, at_from);
@@ -225,12 +227,12 @@ PBF_INLINE Refracted refracted(const Scene& scene,
       min(distance_to_ground(e, terms, position, once), nearest_wall(e, terms, position, once).way);
   const Lanes deep = p.z - back_at(scene, terms, x, y, -p.z).z;
   const Lanes straight = max(deep, 0.0F) / -view.z;
+  const Lanes least = kLeastWay * terms.radius;
   const Mask may_be_solid = wanted & (body > Lanes(0.0F));
   const Lanes half_radius = 0.5F * terms.radius;
   const Lanes most = clamp(to_end - half_radius, 0.0F, Lanes(kFarthest) * straight + half_radius);
-  const Lanes way = way_to_back(scene, terms, p, into, most, may_be_solid);
+  const Lanes way = way_to_back(scene, terms, p, into, most, max(deep, least), may_be_solid);
   const Lanes gap = to_end - way;
-  const Lanes least = kLeastWay * terms.radius;
   const Lanes filled = filling(terms, thickness, straight, to_end);
   const Lanes full = filling(terms, thickness + Lanes(terms.radius), straight, to_end);
   const Lanes is_bound = (Lanes(1) - smoothstep(0.5F * terms.radius, 3 * terms.radius, gap)) *

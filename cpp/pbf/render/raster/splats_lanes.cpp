@@ -82,7 +82,7 @@ template <bool kPerspective, bool kStretched>
 void splat(const Sprite& s, const ToSphere& to_sphere, const SplatView& view, Workspace& to) {
   const Lanes radius2 = s.radius * s.radius;
   const Ints level = static_cast<std::int32_t>(s.level) - Ints{};
-  const bool has_back = s.level < 3;  // glsl/back_depth.frag
+  const Lanes farthest = s.level < 3 ? view.far : 0.0F;  // drops alone have no far side
   for (int y = s.bottom; y < s.top; ++y) {
     const Lanes py = to.y[y];
     for (int x = s.left; x < s.right; x += kLanes) {
@@ -115,9 +115,7 @@ void splat(const Sprite& s, const ToSphere& to_sphere, const SplatView& view, Wo
       const Lanes chord = kPerspective ? inside * load_lanes(to.length + at) : inside;
       store(to.thickness + at,
             load_lanes(to.thickness + at) + max(select(hit, chord, 0.0F), 0.0F) * s.share);
-      if (has_back) {
-        store(to.back + at, max(load_lanes(to.back + at), select(hit, min(back, view.far), 0.0F)));
-      }
+      store(to.back + at, max(load_lanes(to.back + at), select(hit, min(back, farthest), 0.0F)));
       const Mask seen = hit & (chord > Lanes(0.0F)) & (Lanes(view.near) <= front);
       const Lanes affine = kPerspective ? 1.0F / front : -front;
       const Ints bits = (reinterpret_cast<Ints>(affine.v) & ~3) | level;
