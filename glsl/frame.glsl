@@ -42,9 +42,17 @@ float with_crowding(float a, float crowding) {
   uint level = uint(3.5 - 3.0 * crowding);
   return uintBitsToFloat((floatBitsToUint(a) & ~3u) | level);
 }
+// The same of a smoothed depth, by the sphere that was in front.
+float with_crowding_of(float a, float sphere) {
+  return uintBitsToFloat((floatBitsToUint(a) & ~3u) | (floatBitsToUint(sphere) & 3u));
+}
 float crowding_of(float a) { return 1.0 - float(floatBitsToUint(a) & 3u) / 3.0; }
 // A drop alone, 3 in those bits.
 bool is_alone(float crowding) { return 3.5 - 3.0 * crowding >= 3.0; }
+
+// Of less than half of a body's crowding. Two thirds are a body's edge, or a sheet.
+const uint DROP = 2u;
+bool is_body(float a) { return (floatBitsToUint(a) & DROP) == 0u; }
 
 // How far depth is smoothed there, over a body. A drop is round already; where a few particles have
 // met, a kernel as wide as their sprites would leave a flat disc of each, and a ninth joins them.

@@ -136,22 +136,21 @@ void main() {
   o_normal = vec4(0.0);
   if (!exists) return;
   float width = 1.0 / pixels_per_meter(-p.z);  // of a pixel [m]
-  float crowding = crowding_of(texelFetch(u_spheres, pixel, 0).r);
-  float radius = mix(u_drop_radius, u_radius, crowding);
+  float sphere = texelFetch(u_spheres, pixel, 0).r;
+  float radius = mix(u_drop_radius, u_radius, crowding_of(sphere));
   Tangent x = tangent(pixel, ivec2(1, 0), p, width, radius);
   Tangent y = tangent(pixel, ivec2(0, 1), p, width, radius);
   vec3 n = normalize(cross(normalize(x.along), normalize(y.along)));
   // At the outline of a drop a difference to one side is that of half a pixel farther in, where it
   // is less steep. The drop is a sphere.
-  bool is_drop = crowding < 0.5;  // two thirds are a body's edge, or a sheet
-  if (is_drop && (x.ends || y.ends) && !x.lone && !y.lone) {
+  if (!is_body(sphere) && (x.ends || y.ends) && !x.lone && !y.lone) {
     vec3 view = ray_direction(gl_FragCoord.xy);
     vec3 own = sphere_normal(x.step / radius, y.step / radius, view);
     n = dot(own, view) < 0.0 ? own : n;
   }
   int reach = int(min(u_radius / width, MOST_REACH));
   // Where nobody tells drops from bodies, every sphere may be alone.
-  bool is_body = !is_drop && u_drop_radius < u_radius;
-  if (is_body && reach > 1) n = rim_normal(pixel, p, n, reach);
+  bool has_drops = u_drop_radius < u_radius;
+  if (has_drops && is_body(sphere) && reach > 1) n = rim_normal(pixel, p, n, reach);
   o_normal = vec4(n, 0.0);
 }

@@ -1,5 +1,6 @@
 // smooth.frag: one axis of a smoothing filter. In: a layer, affine depth or thickness [m], and the
-// affine depth of the spheres with their crowding. Out: the layer.
+// affine depth of the spheres with their crowding. Out: the layer. Affine depth of fronts carries
+// its crowding from pass to pass.
 //
 // At each pixel a straight line is fitted to the neighbors along the axis by weighted least
 // squares; its value at the pixel is the result. A constant and a tilted plane are therefore kept
@@ -17,6 +18,8 @@
 //                 little behind the pixel, which rounds off the edge of what is in front. Pairs
 //                 are visited from the pixel outwards; what lies beyond a hole does not count,
 //                 for the window could not grow there.
+// To these two a drop before a body is another surface, however near: it stays as it is, and would
+// pull the body towards itself, in streaks along both axes.
 // Neighbors of a kernel wider than MOST_TAPS are thinned out evenly: it covers many pixels of each
 // sphere and sees the same surface. Beside an edge, though, pixels in between see other neighbors
 // than their own; a last, dense pass over as many pixels as were left out joins them.
@@ -48,8 +51,10 @@ float gap_radius(float radius) {
   return stride > 1.0 ? 1.5 * stride : 0.0;
 }
 
-// @param limit  what is more does not count
-float smoothed(ivec2 pixel, float value, float radius, Window window, float limit) {
+// @param limit    what is more does not count
+// @param strange  bits of depth that only another surface has
+float smoothed(
+    ivec2 pixel, float value, float radius, Window window, float limit, uint strange) {
   ivec2 size = textureSize(u_values, 0);
   int at = pixel.x * u_axis.x + pixel.y * u_axis.y;
   int last = size.x * u_axis.x + size.y * u_axis.y - 1;
@@ -78,14 +83,18 @@ float smoothed(ivec2 pixel, float value, float radius, Window window, float limi
 #if defined(NARROW_RANGE)
     exist = open = bvec2(open.x && exist.x, open.y && exist.y);
 #endif
+#if !defined(GAUSSIAN)
+    uvec2 theirs = floatBitsToUint(neighbors) & strange;
+    bvec2 other = bvec2(exist.x && theirs.x != 0u, exist.y && theirs.y != 0u);
+#endif
     vec2 difference = mix(vec2(0.0), neighbors - value, exist);
     vec2 weight = vec2(exist) * (space * fade);
 #if defined(BILATERAL)
     vec2 u = max(-difference * inverse_down, difference * inverse_up);
     vec2 keep = max(1.0 - u * u, 0.0);
-    weight *= keep * keep;
+    weight *= keep * keep * vec2(not(other));
 #elif defined(NARROW_RANGE)
-    bool in_front = max(difference.x, difference.y) > high;
+    bool in_front = max(difference.x, difference.y) > high || any(other);
     vec2 inside = mix(difference, vec2(0.0), lessThan(difference, vec2(low)));
     difference = mix(difference, vec2(-window.behind), lessThan(difference, vec2(low)));
     weight *= in_front ? 0.0 : 1.0;
@@ -122,6 +131,11 @@ void main() {
   if (u_close_gaps == 1) radius = gap_radius(radius);
   if (radius <= 0.0) return;
   float limit = u_far_side == 1 ? sphere : -LEAST_SURFACE;
-  float result = smoothed(pixel, value, radius, window, limit);
-  o_value = u_thickness == 1 ? max(result, 0.0) : result;
+  uint strange = u_thickness == 0 && is_body(sphere) ? DROP : 0u;
+  float result = smoothed(pixel, value, radius, window, limit, strange);
+  if (u_thickness == 1) {
+    o_value = max(result, 0.0);
+  } else {
+    o_value = u_far_side == 1 ? result : with_crowding_of(result, sphere);
+  }
 }

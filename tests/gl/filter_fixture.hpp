@@ -20,6 +20,10 @@ inline double with_level(double affine_depth, std::uint32_t level) {
   return std::bit_cast<float>((bits & ~3U) | level);
 }
 
+inline std::uint32_t level_of(double affine_depth) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(affine_depth)) & 3U;
+}
+
 inline raster::Map map_of(const GlFixture& gl, const Function& value) {
   raster::Map map(gl.width(), gl.height(), kNothing);
   for (int y = 0; y < gl.height(); ++y) {

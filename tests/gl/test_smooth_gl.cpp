@@ -51,8 +51,14 @@ std::vector<float> smooth(
     const LayerFilter& filter,
     const Function& value,
     const Function& sphere = [](int, int) { return with_level(0.5, 0); }) {
-  return way == Way::glsl ? smooth_in_glsl(gl, filter, value, sphere)
-                          : smooth_in_cpp(gl, filter, value, sphere);
+  // Fronts carry the crowding of their spheres.
+  const auto front = [&](int x, int y) {
+    const double a = value(x, y);
+    return a == kNothing ? a : with_level(a, level_of(sphere(x, y)));
+  };
+  const Function& layer = filter.layer == Layer::depth ? Function(front) : value;
+  return way == Way::glsl ? smooth_in_glsl(gl, filter, layer, sphere)
+                          : smooth_in_cpp(gl, filter, layer, sphere);
 }
 
 }  // namespace
@@ -258,7 +264,8 @@ TEST_CASE("smooth: a drop stays as it is, a kernel is as wide as the square of t
     const auto peak = [&](Real radius, std::uint32_t level) {  // its depth [m]
       const auto result = smooth(way, gl, depth_of(Smoothing::bilateral, radius, 0.4F), bump,
                                  [&](int, int) { return with_level(0.5, level); });
-      if (level == 3) CHECK(result == gl.read(gl.texture(bump)));
+      const auto drop = [&](int x, int y) { return with_level(bump(x, y), 3); };
+      if (level == 3) CHECK(result == gl.read(gl.texture(drop)));
       return 1 / result[gl.at(32, 24)];
     };
     double last = peak(0.6F, 3);
@@ -268,6 +275,43 @@ TEST_CASE("smooth: a drop stays as it is, a kernel is as wide as the square of t
       CHECK(found > last + 1e-4);
       CHECK(found == doctest::Approx(peak(0.6F * share, 0)).epsilon(1e-6));
       last = found;
+    }
+  }
+}
+
+TEST_CASE("smooth: a body is the same whether a drop is before it or a hole in it") {
+  const GlFixture gl;
+  const auto at_drop = [](int x, int y) { return std::hypot(x - 30, y - 20) < 4; };
+  const auto body = [](int x, int y) { return 1 / (kHere + 0.01 * std::sin(0.7 * x + 0.9 * y)); };
+  const auto sphere = [&](int x, int y) { return with_level(0.5, at_drop(x, y) ? 3U : 0U); };
+  // Nearer than the surface by less than the range: the window alone would let the drop in.
+  const auto with_drop = [&](int x, int y) {
+    return at_drop(x, y) ? 1 / (kHere - 0.06) : body(x, y);
+  };
+  const auto with_hole = [&](int x, int y) {
+    return at_drop(x, y) ? double{kNothing} : body(x, y);
+  };
+  for (const Way way : kWays) {
+    for (const Smoothing kind : {Smoothing::bilateral, Smoothing::narrow_range}) {
+      const LayerFilter filter = depth_of(kind);
+      const auto drop = smooth(way, gl, filter, with_drop, sphere);
+      const auto hole = smooth(way, gl, filter, with_hole, sphere);
+      double worst = 0;
+      for (int y = 0; y < gl.height(); ++y) {
+        for (int x = 0; x < gl.width(); ++x) {
+          const float found = drop[gl.at(x, y)], expected = hole[gl.at(x, y)];
+          if (at_drop(x, y)) {
+            CHECK(found == static_cast<float>(with_level(with_drop(x, y), 3)));
+            continue;
+          }
+          worst = std::max<double>(worst, std::abs(found - expected));
+          CHECK(level_of(found) == 0);
+        }
+      }
+      CAPTURE(static_cast<int>(kind));
+      // A narrow_range neighbor of a drop loses its mirror image as well.
+      if (kind == Smoothing::bilateral) CHECK(worst == 0);
+      CHECK(worst < 0.25 * 0.01);
     }
   }
 }

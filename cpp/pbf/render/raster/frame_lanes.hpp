@@ -16,6 +16,15 @@ PBF_INLINE Lanes crowding_of(Lanes a) {
   return Lanes(1) - Lanes(__builtin_convertvector(level, Lanes::Vector)) / Lanes(3);
 }
 
+PBF_INLINE Lanes with_crowding_of(Lanes a, Lanes sphere) {
+  const auto level = reinterpret_cast<Mask::Vector>(sphere.v) & 3;
+  return Lanes(reinterpret_cast<Lanes::Vector>((reinterpret_cast<Mask::Vector>(a.v) & ~3) | level));
+}
+inline constexpr int kDrop = 2;
+PBF_INLINE Mask is_body(Lanes a) {
+  return Mask{(reinterpret_cast<Mask::Vector>(a.v) & kDrop) == 0};
+}
+
 PBF_INLINE Lanes smoothing_share(Lanes a) { return crowding_of(a) * crowding_of(a); }
 
 PBF_INLINE Lanes farther(bool perspective, Lanes a, float length) {

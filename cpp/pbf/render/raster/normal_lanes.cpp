@@ -169,14 +169,13 @@ void normal(const NormalTerms& terms, Tile tile, float* nx, float* ny, float* nz
       Vec3Lanes n{0.0F, 0.0F, 0.0F};
       if (any(point.exists)) {
         const Vec3Lanes& p = point.at;
-        const Lanes crowding = crowding_of(load_lanes(terms.spheres.first + at));
-        const Lanes radius = mix(terms.drop_radius, terms.radius, crowding);
+        const Lanes sphere = load_lanes(terms.spheres.first + at);
+        const Lanes radius = mix(terms.drop_radius, terms.radius, crowding_of(sphere));
         const Tangent right = tangent(terms, x, y, 1, 0, p, radius);
         const Tangent up = tangent(terms, x, y, 0, 1, p, radius);
         n = normalize(cross(normalize(right.along), normalize(up.along)));
-        const Mask is_drop = crowding < Lanes(0.5F);  // two thirds are a body's edge, or a sheet
         const Mask outline =
-            point.exists & is_drop & (right.ends | up.ends) & ~right.lone & ~up.lone;
+            point.exists & ~is_body(sphere) & (right.ends | up.ends) & ~right.lone & ~up.lone;
         if (any(outline)) {
           const Vec3Lanes view =
               terms.frame.perspective ? (Lanes(-1) / p.z) * p : Vec3Lanes{0.0F, 0.0F, -1.0F};
@@ -186,10 +185,10 @@ void normal(const NormalTerms& terms, Tile tile, float* nx, float* ny, float* nz
         }
         const Lanes pixels = min(terms.radius / pixel_at(terms.frame, -p.z), kMostReach);
         const Ints reach = to_ints(pixels);
-        const Mask is_body = point.exists & ~is_drop & (Lanes(2) <= to_lanes(reach));
+        const Mask has_rim = point.exists & is_body(sphere) & (Lanes(2) <= to_lanes(reach));
         // Where nobody tells drops from bodies, every sphere may be alone.
-        if (terms.drop_radius < terms.radius && any(is_body)) {
-          n = select(is_body, rim_normal(terms, x, y, p, n, reach), n);
+        if (terms.drop_radius < terms.radius && any(has_rim)) {
+          n = select(has_rim, rim_normal(terms, x, y, p, n, reach), n);
         }
         n = select(point.exists, n, Vec3Lanes{0.0F, 0.0F, 0.0F});
       }

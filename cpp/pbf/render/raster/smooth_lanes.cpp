@@ -91,6 +91,12 @@ PBF_INLINE Lanes smoothed(const SmoothTerms& terms,
   Lanes space = one;
   Lanes ratio = exp(Lanes(-2) / (reach * reach));
   const Lanes ratio_step = ratio * ratio;
+  // Bits of depth that only another surface has.
+  const Mask body = is_body(front) & Mask{Ints{} + (terms.thickness ? 0 : -1)};
+  const Ints strange = body.v & kDrop;
+  const auto is_other = [&](Lanes a) PBF_LAMBDA_INLINE {
+    return Mask{(reinterpret_cast<Ints>(a.v) & strange) != 0};
+  };
   Lanes s0 = one, s1 = zero, s2 = zero, t0 = zero, t1 = zero;
   for (int k = 1; static_cast<float>(k - 1) < most && k * stride <= farthest; ++k) {
     const std::ptrdiff_t offset = k * stride * tap;
@@ -119,10 +125,11 @@ PBF_INLINE Lanes smoothed(const SmoothTerms& terms,
         const Lanes inside = max(one - u * u, zero);
         return inside * inside;
       };
-      w1 *= keep(d1);
-      w2 *= keep(d2);
+      w1 = select(is_other(next), zero, w1 * keep(d1));
+      w2 = select(is_other(previous), zero, w2 * keep(d2));
     } else if constexpr (kKind == Kind::narrow_range) {
-      const Mask in_front = max(d1, d2) > high;
+      const Mask in_front =
+          (max(d1, d2) > high) | (exist1 & is_other(next)) | (exist2 & is_other(previous));
       const Mask behind1 = d1 < low, behind2 = d2 < low;
       const Lanes inside1 = select(behind1, zero, d1), inside2 = select(behind2, zero, d2);
       d1 = select(behind1, -window.behind, d1);
@@ -167,7 +174,11 @@ void smooth(const SmoothTerms& terms,
         const Lanes fitted = smoothed<kKind>(terms, around, at, value, own, front, s);
         result = select(own > Lanes(0), fitted, result);
       }
-      if (terms.thickness) result = max(result, Lanes(0));
+      if (terms.thickness) {
+        result = max(result, Lanes(0));
+      } else if (kKind != Kind::far_side) {
+        result = select(is_surface(value), with_crowding_of(result, front), value);
+      }
       store(out + y * pitch + x, result);
     }
   }
