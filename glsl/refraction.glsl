@@ -54,28 +54,29 @@ float inside_fluid(Ray ray, float way) {
   return is_fluid ? clamp(inside, -1.0, 1.0) : -1.0;
 }
 
+// Where along a ray something is left: at `from` it is still inside, at `to` no more, by how far.
+struct Bracket {
+  float from, to;
+  float at_from, at_to;
+};
+float middle(Bracket b) { return 0.5 * (b.from + b.to); }
+Bracket halved(Bracket b, float at_middle) {
+  return at_middle > 0.0 ? Bracket(middle(b), b.to, at_middle, b.at_to)
+                         : Bracket(b.from, middle(b), b.at_from, at_middle);
+}
+float crossing(Bracket b) { return mix(b.from, b.to, b.at_from / (b.at_from - b.at_to)); }
+
 // How far a ray goes through the fluid before it leaves it, as far as the picture knows: steps
 // that grow until one leads out, whose ends are brought together.
 float way_inside(Ray ray, float most) {
-  float from = 0.0, to = 0.0;
-  float at_from = 1.0, at_to = 1.0;
-  for (int k = 1; k <= EXIT_STEPS && at_to > 0.0; ++k) {
-    from = to;
-    at_from = at_to;
-    to = most * float(k * k) / float(EXIT_STEPS * EXIT_STEPS);
-    at_to = inside_fluid(ray, to);
+  Bracket exit = Bracket(0.0, 0.0, 1.0, 1.0);
+  for (int k = 1; k <= EXIT_STEPS && exit.at_to > 0.0; ++k) {
+    float to = most * float(k * k) / float(EXIT_STEPS * EXIT_STEPS);
+    exit = Bracket(exit.to, to, exit.at_to, inside_fluid(ray, to));
   }
-  if (at_to > 0.0) return most;
-  for (int k = 0; k < 4; ++k) {
-    float middle = 0.5 * (from + to);
-    float at_middle = inside_fluid(ray, middle);
-    bool is_in = at_middle > 0.0;
-    from = is_in ? middle : from;
-    at_from = is_in ? at_middle : at_from;
-    to = is_in ? to : middle;
-    at_to = is_in ? at_to : at_middle;
-  }
-  return mix(from, to, at_from / (at_from - at_to));
+  if (exit.at_to > 0.0) return most;
+  for (int k = 0; k < 4; ++k) exit = halved(exit, inside_fluid(ray, middle(exit)));
+  return crossing(exit);
 }
 
 // On through the fluid to the floor, or out through a wall of the tank; a wall that it meets too
@@ -138,24 +139,13 @@ float before_back(vec3 point) {
 float way_to_back(vec3 p, vec3 into, float most, float deep) {
   float at_most = before_back(p + most * into);
   if (at_most > 0.0) return most;
-  float from = 0.0, to = 0.0;
-  float at_from = deep, at_to = deep;
-  for (int k = 1; k <= BACK_STEPS && at_to > 0.0; ++k) {
-    from = to;
-    at_from = at_to;
-    to = most * float(k) / float(BACK_STEPS);
-    at_to = k < BACK_STEPS ? before_back(p + to * into) : at_most;
+  Bracket back = Bracket(0.0, 0.0, deep, deep);
+  for (int k = 1; k <= BACK_STEPS && back.at_to > 0.0; ++k) {
+    float to = most * float(k) / float(BACK_STEPS);
+    back = Bracket(back.to, to, back.at_to, k < BACK_STEPS ? before_back(p + to * into) : at_most);
   }
-  for (int k = 0; k < 3; ++k) {
-    float middle = 0.5 * (from + to);
-    float at_middle = before_back(p + middle * into);
-    bool is_in = at_middle > 0.0;
-    from = is_in ? middle : from;
-    at_from = is_in ? at_middle : at_from;
-    to = is_in ? to : middle;
-    at_to = is_in ? at_to : at_middle;
-  }
-  return mix(from, to, at_from / (at_from - at_to));
+  for (int k = 0; k < 3; ++k) back = halved(back, before_back(p + middle(back) * into));
+  return crossing(back);
 }
 
 // Out of the fluid through a surface whose normal is against the ray. Where it comes too flat for

@@ -9,6 +9,7 @@ import sys
 
 import numpy as np
 import pytest
+from support.optics import linear
 
 import pbfluids as pbf
 from pbfluids import errors
@@ -18,11 +19,6 @@ ALONG_Z = {"eye": (0, 0, 0), "target": (0, 0, -1)}
 PLAIN = {"background": "plain", "background_color": (0, 0, 0), "floor": False}
 ORDERED = ["viridis", "magma", "cividis", "coolwarm", "gray"]
 SUN = np.array([-0.45, 0.8, 0.35]) / np.linalg.norm([-0.45, 0.8, 0.35])
-
-
-def linear(srgb):
-    c = np.asarray(srgb, float) / 255
-    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
 
 @pytest.mark.parametrize("name", ORDERED)

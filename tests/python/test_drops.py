@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.optics import linear
 
 import pbfluids as pbf
 
@@ -14,6 +15,15 @@ WATER = {"radius": 1.2 * D, "drop_radius": 0.62 * D, "particle_volume": D**3}
 CAMERA = pbf.Camera(eye=(0, 0, 2), target=(0, 0, 0), orthographic=True, height=12 * D)
 BALL = np.stack(np.meshgrid(*[np.arange(-4, 5) * D] * 3), axis=-1).reshape(-1, 3)
 BALL = BALL[np.linalg.norm(BALL, axis=1) < 3.6 * D]
+#: Red, under a blue light.
+OPAQUE = pbf.RenderParams(
+    **WATER,
+    absorption=(4000, 4000, 4000),
+    scatter=(0.8, 0.2, 0.1),
+    floor=False,
+    reflection="plain",
+    background_color=(0, 0, 1),
+)
 
 
 def test_a_drop_beside_others_stays_a_drop(renderer):
@@ -45,18 +55,10 @@ def test_a_body_is_as_dense_beside_a_drop_before_it(renderer):
 
 
 def test_through_an_opaque_drop_nothing_is_seen_of_what_it_hides(renderer):
-    params = pbf.RenderParams(
-        **WATER,
-        absorption=(4000, 4000, 4000),
-        scatter=(0.8, 0.2, 0.1),
-        floor=False,
-        reflection="plain",
-        background_color=(0, 0, 1),
-    )
     # A drop before the flank of a ball, which mirrors most of the light there.
     drop = np.array([[3.6 * D, 0, 15 * D]])
-    alone = renderer.render(drop, CAMERA, params).astype(int)
-    before = renderer.render(np.concatenate([BALL, drop]), CAMERA, params).astype(int)
+    alone = renderer.render(drop, CAMERA, OPAQUE).astype(int)
+    before = renderer.render(np.concatenate([BALL, drop]), CAMERA, OPAQUE).astype(int)
     column = round(80 + 3.6 * D * 120 / (12 * D))
     seen = slice(58, 62), slice(column - 2, column + 2)
     assert np.abs(before[seen] - alone[seen]).max() <= 2
@@ -65,20 +67,10 @@ def test_through_an_opaque_drop_nothing_is_seen_of_what_it_hides(renderer):
 def test_the_rim_of_a_drop_mirrors_the_body_behind_it(renderer):
     # Opaque fluid under a blue light: where the mirrored ray goes on by more than 0.3 against the
     # body, the drop has nothing but the fluid's own color.
-    look = pbf.RenderParams(
-        **WATER,
-        absorption=(4000, 4000, 4000),
-        scatter=(0.8, 0.2, 0.1),
-        floor=False,
-        reflection="plain",
-        background="plain",
-        background_color=(0, 0, 1),
-        tone_mapping="none",
-    )
+    look = OPAQUE.replace(background="plain", tone_mapping="none")
     body = pbf.block((-0.3, -0.3, -0.3), (0.3, 0.3, -0.1), spacing=D)
     camera = pbf.Camera(eye=(0, 0, 2), target=(0, 0, 0), orthographic=True, height=6 * D)
-    image = renderer.render(np.concatenate([body, [(0, 0, D)]]), camera, look) / 255
-    light = np.where(image <= 0.04045, image / 12.92, ((image + 0.055) / 1.055) ** 2.4)
+    light = linear(renderer.render(np.concatenate([body, [(0, 0, D)]]), camera, look))
     sine = (np.arange(80, 160) - 79.5) * 6 * D / 120 / WATER["drop_radius"]
     rim = light[60, 80:][(sine > 0.82) & (sine < 0.97)]
     assert rim[:, 2] == pytest.approx(rim[:, 0] / 8, abs=0.006)

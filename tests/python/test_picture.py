@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.optics import fresnel
+from support.optics import fresnel, linear
 
 import pbfluids as pbf
 from pbfluids import errors
@@ -16,12 +16,6 @@ BLOCK = pbf.block((-0.3, -0.3, -2.3), (0.3, 0.3, -1.7), spacing=0.04)
 DROPS = np.random.default_rng(1).uniform((-0.8, -0.6, -2.3), (0.8, 0.6, -1.7), (200, 3))
 CLOUD = np.concatenate([BLOCK, DROPS])
 WATER = {"radius": 0.048, "drop_radius": 0.0248, "particle_volume": 0.04**3}
-
-
-def linear(image):
-    """Light of sRGB-encoded values, 0 to 255."""
-    v = np.asarray(image, float) / 255
-    return np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
 
 
 def encoded(light):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.optics import fresnel
+from support.optics import fresnel, linear
 
 import pbfluids as pbf
 
@@ -47,9 +47,7 @@ def renderer(request):
 
 def seen(renderer, positions, camera=CAMERA, look=CLEAR):
     """Where each pixel's ray came from, and what Fresnel took is given back."""
-    v = renderer.render(positions, camera, look)[..., :3] / 255
-    light = np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
-    return light * 4
+    return linear(renderer.render(positions, camera, look)[..., :3]) * 4
 
 
 def through(light, mirrored=0.0):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.optics import linear
 
 import pbfluids as pbf
 from pbfluids import errors
@@ -17,10 +18,8 @@ WALL = pbf.block((-1.6, -1.2, -2.0), (1.6, 1.2, -1.7), spacing=0.04)
 SUN = np.array([0, 1, 1]) / np.sqrt(2)
 
 
-def linear(image):
-    """Light of sRGB-encoded values, 0 to 255."""
-    v = np.asarray(image[..., :3], float) / 255
-    return np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
+def light_in(image):
+    return linear(image[..., :3])
 
 
 def params(**changes):
@@ -64,7 +63,7 @@ def rays(camera, width=160, height=120):
 def test_a_mesh_alone_is_where_and_as_bright_as_it_should_be(renderer):
     camera = pbf.Camera(**ALONG_Z)
     mesh = rectangle((-0.4, -0.3), (0.5, 0.2), -2)
-    image = linear(renderer.render(NOTHING, camera, params(), meshes=[mesh]))
+    image = light_in(renderer.render(NOTHING, camera, params(), meshes=[mesh]))
     x, y = (2 * slope for slope in rays(camera))
     inside = (x > -0.4) & (x < 0.5) & (y > -0.3) & (y < 0.2)
     expected = np.where(inside[..., None], light_on((0, 0, 1), (0.5, 0.4, 0.3)), 1.0)
@@ -86,7 +85,7 @@ def test_a_mesh_through_the_fluid_is_seen_up_to_where_it_enters(renderer):
     # Black fluid, and a plane that enters it at x = 0.
     camera, black = pbf.Camera(**ALONG_Z), params(absorption=(1e4, 1e4, 1e4))
     mesh = rectangle((-1.5, -1.2), (1.5, 1.2), -1.7, slope=-0.5)
-    image = linear(renderer.render(WALL, camera, black, meshes=[mesh]))
+    image = light_in(renderer.render(WALL, camera, black, meshes=[mesh]))
     front = renderer.layers(WALL, camera, black)["depth_smooth"]
     x, _ = rays(camera)
     depth = 1.7 / (1 - 0.5 * x)  # of the plane
@@ -102,7 +101,7 @@ def test_a_mesh_through_the_fluid_is_seen_up_to_where_it_enters(renderer):
 def test_in_the_fluid_a_mesh_is_seen_through_the_fluid_before_it(renderer, gap):
     camera = pbf.Camera(**ALONG_Z, orthographic=True, height=1.6)
     mesh = rectangle((-1.5, -1.2), (1.5, 1.2), -1.7 - gap)
-    image = linear(renderer.render(WALL, camera, params(), meshes=[mesh]))[40:80, 60:100]
+    image = light_in(renderer.render(WALL, camera, params(), meshes=[mesh]))[40:80, 60:100]
     front = renderer.layers(WALL, camera, params())["depth_smooth"][40:80, 60:100]
     way = 1.7 + gap - front[..., None]  # spheres stick out by a little
     expected = light_on((0, 0, 1), (0.5, 0.4, 0.3)) * np.exp(-np.array([4, 2, 0]) * way)
@@ -112,7 +111,7 @@ def test_in_the_fluid_a_mesh_is_seen_through_the_fluid_before_it(renderer, gap):
 def test_behind_the_fluid_a_mesh_is_seen_through_all_of_it(renderer):
     camera = pbf.Camera(**ALONG_Z, orthographic=True, height=1.6)
     mesh = rectangle((-2, -2), (2, 2), -3)
-    image = linear(renderer.render(WALL, camera, params(), meshes=[mesh]))[40:80, 60:100]
+    image = light_in(renderer.render(WALL, camera, params(), meshes=[mesh]))[40:80, 60:100]
     thickness = renderer.layers(WALL, camera, params())["thickness_smooth"][40:80, 60:100, None]
     expected = light_on((0, 0, 1), (0.5, 0.4, 0.3)) * np.exp(-np.array([4, 2, 0]) * thickness)
     assert np.abs(image - expected).max() < 0.01
@@ -133,7 +132,7 @@ def test_a_bent_ray_finds_the_mesh_where_snell_says(renderer):
         for z0, z1, color in sides
     ]
     water = params(refractive_index=1.333, absorption=(0, 0, 0), background_color=(0, 0, 0))
-    column = linear(renderer.render(pool, camera, water, meshes=meshes))[:, 80, 1]
+    column = light_in(renderer.render(pool, camera, water, meshes=meshes))[:, 80, 1]
     edge = np.flatnonzero(column > 0.3).max() + 0.5  # rows from the top: the far side is bright
     # A ray that leaves the surface at z sees the bottom at z - 0.3 tan(refracted).
     slopes = np.tan(np.radians(12.5)) * (1 - 2 * (np.arange(120) + 0.5) / 120)
@@ -159,7 +158,7 @@ def test_what_a_mesh_hides_of_another_goes_on_behind_it(renderer):
     )
     plate = rectangle((-0.1, -0.25), (0.1, -0.05), 0, color=(0.9, 0.1, 0.1))
     water = params(refractive_index=1.333, absorption=(0, 0, 0), background_color=(0, 0, 0))
-    light = linear(renderer.render(pool, camera, water, meshes=[bottom, plate]))[20:100, 40:120]
+    light = light_in(renderer.render(pool, camera, water, meshes=[bottom, plate]))[20:100, 40:120]
     assert light[..., 0].min() > 0.9 * 0.5 * light_on((0, 1, 0), (1, 1, 1))[0]
 
 
@@ -183,7 +182,7 @@ def test_of_two_meshes_the_nearer_is_seen_in_any_order(renderer):
     meshes = [rectangle((-0.4, -0.3), (0.5, 0.2), -1), rectangle((-2, -2), (2, 2), -2, (0, 0, 0))]
     one = renderer.render(NOTHING, camera, params(), meshes=meshes)
     assert np.array_equal(one, renderer.render(NOTHING, camera, params(), meshes=meshes[::-1]))
-    assert linear(one)[60, 80] == pytest.approx(light_on((0, 0, 1), (0.5, 0.4, 0.3)), abs=0.006)
+    assert light_in(one)[60, 80] == pytest.approx(light_on((0, 0, 1), (0.5, 0.4, 0.3)), abs=0.006)
 
 
 def test_a_mesh_casts_a_shadow_away_from_the_sun(renderer):
@@ -192,8 +191,8 @@ def test_a_mesh_casts_a_shadow_away_from_the_sun(renderer):
     )
     camera = pbf.Camera(eye=(0, 0.8, 0), target=(0, 0, 0), up=(0, 0, -1), fov_y=20)
     base = params(floor=True, floor_height=0, shadow=0.7, sun_direction=(0, 1, 0), radius=0.02)
-    lit = linear(renderer.render(NOTHING, camera, base.replace(shadow=0), meshes=[roof]))
-    dark = linear(renderer.render(NOTHING, camera, base, meshes=[roof]))
+    lit = light_in(renderer.render(NOTHING, camera, base.replace(shadow=0), meshes=[roof]))
+    dark = light_in(renderer.render(NOTHING, camera, base, meshes=[roof]))
     assert (dark / lit)[60, 80] == pytest.approx(0.3, abs=0.01)
     aside = base.replace(sun_direction=(1, 1, 0))  # then it lies at x from -1.5 to -0.5
     without = renderer.render(NOTHING, camera, aside)
@@ -261,7 +260,7 @@ def test_a_map_is_seen_where_it_should_be(renderer):
     for look, color in zip(looks, COLORS, strict=True):
         up = (0, 0, -1) if look[1] else (0, 1, 0)
         camera = pbf.Camera(eye=(0, 0, 0), target=look, up=up, fov_y=40)
-        image = linear(renderer.render(NOTHING, camera, params(background="map")))
+        image = light_in(renderer.render(NOTHING, camera, params(background="map")))
         assert image[60, 80] == pytest.approx(color, abs=0.006)
     renderer.set_environment_map(None)
 
@@ -271,7 +270,7 @@ def test_a_map_is_mirrored_as_fresnel_says_however_bright(renderer):
     renderer.set_environment_map(six_colors() * 20)
     camera = pbf.Camera(**ALONG_Z, orthographic=True, height=1.6)
     black = params(refractive_index=1.333, absorption=(1e4, 1e4, 1e4), reflection="map")
-    image = linear(renderer.render(WALL, camera, black))[50:70, 70:90].mean(axis=(0, 1))
+    image = light_in(renderer.render(WALL, camera, black))[50:70, 70:90].mean(axis=(0, 1))
     head_on = ((1.333 - 1) / (1.333 + 1)) ** 2
     assert image == pytest.approx(20 * head_on * COLORS[2], abs=0.01)
     renderer.set_environment_map(None)
@@ -346,6 +345,6 @@ def test_the_background_that_is_kept_follows_the_environment_map(renderer):
     camera, mapped = pbf.Camera(**ALONG_Z), params(background="map")
     for color in (0.2, 0.6, 0.4):
         renderer.set_environment_map(np.full((4, 8, 3), color))
-        image = linear(renderer.render(NOTHING, camera, mapped))
+        image = light_in(renderer.render(NOTHING, camera, mapped))
         assert image[10, 10] == pytest.approx([color] * 3, abs=0.01)
     renderer.set_environment_map(None)

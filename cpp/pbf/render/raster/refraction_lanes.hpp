@@ -52,6 +52,23 @@ PBF_INLINE Lanes inside_fluid(const Scene& scene,
   return select(is_fluid, clamp(inside, -1.0F, 1.0F), -1.0F);
 }
 
+struct Bracket {
+  Lanes from, to, at_from, at_to;
+};
+PBF_INLINE Lanes middle(const Bracket& b) { return Lanes(0.5F) * (b.from + b.to); }
+PBF_INLINE Bracket next(Mask on, const Bracket& b, Lanes to, Lanes at_to) {
+  return {select(on, b.to, b.from), select(on, to, b.to), select(on, b.at_to, b.at_from),
+          select(on, at_to, b.at_to)};
+}
+PBF_INLINE Bracket halved(const Bracket& b, Lanes at_middle) {
+  const Mask is_in = at_middle > Lanes(0.0F);
+  return {select(is_in, middle(b), b.from), select(is_in, b.to, middle(b)),
+          select(is_in, at_middle, b.at_from), select(is_in, b.at_to, at_middle)};
+}
+PBF_INLINE Lanes crossing(const Bracket& b) {
+  return mix(b.from, b.to, b.at_from / max(b.at_from - b.at_to, 1e-20F));
+}
+
 /// @param most  0 where nobody asks
 PBF_INLINE Lanes way_inside(const Scene& scene,
                             const FluidTerms& terms,
@@ -59,27 +76,17 @@ PBF_INLINE Lanes way_inside(const Scene& scene,
                             Lanes most) {
   constexpr int kSteps = 6;
   const Lanes zero = 0.0F;
-  Lanes from = zero, to = zero, at_from = 1.0F, at_to = 1.0F;
+  Bracket exit = {zero, zero, 1.0F, 1.0F};
   Mask on = most > zero;
   for (int k = 1; k <= kSteps && any(on); ++k) {
-    from = select(on, to, from);
-    at_from = select(on, at_to, at_from);
-    to = select(on, most * Lanes(static_cast<float>(k * k) / (kSteps * kSteps)), to);
-    at_to = select(on, inside_fluid(scene, terms, ray, to), at_to);
-    on = on & (at_to > zero);
+    const Lanes to = most * Lanes(static_cast<float>(k * k) / (kSteps * kSteps));
+    exit = next(on, exit, to, inside_fluid(scene, terms, ray, to));
+    on = on & (exit.at_to > zero);
   }
-  const Mask leaves = ~(at_to > zero);
+  const Mask leaves = ~(exit.at_to > zero);
   if (!any(leaves)) return most;
-  for (int k = 0; k < 4; ++k) {
-    const Lanes middle = Lanes(0.5F) * (from + to);
-    const Lanes at_middle = inside_fluid(scene, terms, ray, middle);
-    const Mask is_in = at_middle > zero;
-    from = select(is_in, middle, from);
-    at_from = select(is_in, at_middle, at_from);
-    to = select(is_in, to, middle);
-    at_to = select(is_in, at_to, at_middle);
-  }
-  return select(leaves, mix(from, to, at_from / max(at_from - at_to, 1e-20F)), most);
+  for (int k = 0; k < 4; ++k) exit = halved(exit, inside_fluid(scene, terms, ray, middle(exit)));
+  return select(leaves, crossing(exit), most);
 }
 
 PBF_INLINE void follow_to_wall_or_floor(const Scene& scene, const FluidTerms& terms, Ray& ray) {
@@ -167,24 +174,14 @@ PBF_INLINE Lanes way_to_back(const Scene& scene,
   const Mask leaves = ~(at_most > zero);
   Mask on = leaves & wanted;
   if (!any(on)) return most;
-  Lanes from = zero, to = zero, at_from = deep, at_to = deep;
+  Bracket back = {zero, zero, deep, deep};
   for (int k = 1; k <= kSteps && any(on); ++k) {
-    from = select(on, to, from);
-    at_from = select(on, at_to, at_from);
-    to = select(on, most * Lanes(static_cast<float>(k) / kSteps), to);
-    at_to = select(on, k < kSteps ? before_back(to) : at_most, at_to);
-    on = on & (at_to > zero);
+    const Lanes to = most * Lanes(static_cast<float>(k) / kSteps);
+    back = next(on, back, to, k < kSteps ? before_back(to) : at_most);
+    on = on & (back.at_to > zero);
   }
-  for (int k = 0; k < 3; ++k) {
-    const Lanes middle = Lanes(0.5F) * (from + to);
-    const Lanes at_middle = before_back(middle);
-    const Mask is_in = at_middle > zero;
-    from = select(is_in, middle, from);
-    at_from = select(is_in, at_middle, at_from);
-    to = select(is_in, to, middle);
-    at_to = select(is_in, at_to, at_middle);
-  }
-  return select(leaves, mix(from, to, at_from / max(at_from - at_to, 1e-20F)), most);
+  for (int k = 0; k < 3; ++k) back = halved(back, before_back(middle(back)));
+  return select(leaves, crossing(back), most);
 }
 
 PBF_INLINE Vec3Lanes out_of(const Vec3Lanes& direction, const Vec3Lanes& n, float index) {
